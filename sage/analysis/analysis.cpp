@@ -8,6 +8,7 @@
 #include "sage/analysis/audit.hpp"
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/loads.hpp"
+#include "sage/analysis/pore_warnings.hpp"
 #include "sage/analysis/run_checkpoint.hpp"
 #include "sage/analysis/stage_start.hpp"
 #include "sage/analysis/stage_warnings.hpp"
@@ -208,6 +209,8 @@ void Analysis::Stages::end_increment(StepReport& report) {
     show_region_for(report);
   else
     recover_for(report);
+  if (system_.assembly().flows() && (report.increment == 1 || report.increment == report.increments))
+    run_.warn(oscillation_warnings(model_, run_.stage(), report.increment, system_.assembly(), state_.u));
   observer_list_.tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
   shown_u_.resize(0);
 }
@@ -328,6 +331,7 @@ void Analysis::Stages::take_loads() {
   const Eigen::VectorXd now = run_.loads_at(t);
   path.force_end = external_force(model_, done_.stage);
   if (path.water_force.size() > 0) path.force_end += path.water_force;
+  if (path.let_in.size() > 0) path.force_end += path.let_in;
   const auto start_of = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
     return (at - t * path.force_end) / (1.0 - t);
   };

@@ -95,6 +95,7 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     eases_ = eases_ || (data.wants_context && data.group->flow());
     wants_step_time_ = wants_step_time_ || data.wants_context || data.sees_spread ||
                        data.group->element->traits().sees_unknowns;
+    has_pores_ = has_pores_ || data.group->entry->has_pores();
     data.constant =
         scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
     list_dofs(data, dof_map_);
@@ -137,6 +138,12 @@ bool Assembly::sees_unknowns() const {
                              [](const GroupData& data) { return data.group->element->traits().sees_unknowns; });
 }
 
+bool Assembly::linear_in_step() const {
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    if (groups_[g].active && scene_->group_linear[g] == 0 && !has_matrix_of_step(groups_[g])) return false;
+  return true;
+}
+
 void Assembly::reset_group(std::size_t group) {
   GroupData& data = groups_[group];
   const ElementTraits& traits = data.group->element->traits();
@@ -148,7 +155,7 @@ void Assembly::take_laws() {
   for (GroupData& data : groups_) {
     data.law = model_->material_of(*data.group).law_ref();
     data.second_law = model_->second_law_of(*data.group);
-    data.dt_of_matrices = 0.0;
+    data.step_of_matrices = {};
     find_fours(data);
     std::ranges::fill(data.constant_four_abreast, char{0});
   }
@@ -224,6 +231,11 @@ ElementEquations Assembly::element_equations() const {
   list.offset.reserve(static_cast<std::size_t>(elements_) + 1);
   for (const GroupData& data : groups_)
     if (in_system(data)) append_equations(data, equations_.of_dofs(), list);
+  if (model_->has_pores())
+    for (int eq = 0; eq < equations(); ++eq) {
+      const auto field = static_cast<std::size_t>(dof_map_.at(dof_of(eq)).field);
+      list.pressure.push_back(model_->unknowns[field].of_pores ? 1 : 0);
+    }
   if (!condensation_) return list;
   for (int eq = 0; eq < equations(); ++eq) list.equations.push_back(eq);
   list.offset.push_back(static_cast<std::int64_t>(list.equations.size()));

@@ -34,6 +34,10 @@ class Assembly {
   bool symmetric() const { return scene_->symmetric; }
   void set_step_time(const StepTime& step_time);
   const StepTime& step_time() const { return element_.step_time(); }
+  // Water flows in the step in hand: internal forces change with the time alone.
+  bool flows() const { return has_pores_ && step_time().flow_dt > 0.0; }
+  // K depends on nothing but the size of the step.
+  bool linear_in_step() const;
   // The loads along elements at the end of the stage in hand have changed: they grow there from what acts at this load
   // factor, below 1.
   void take_spread_loads(double load_factor);
@@ -165,7 +169,7 @@ class Assembly {
   std::unique_ptr<Condensation> condensation_;
   RegionStep region_step_ = RegionStep::open;
   Equations equations_;
-  bool wants_step_time_ = false, eases_ = false;
+  bool wants_step_time_ = false, eases_ = false, has_pores_ = false;
   int spread_stage_ = 0;  // that the groups have the loads along their elements of, from 1
   int elements_ = 0;      // of the system
   Eigen::VectorXd rate_, internal_;

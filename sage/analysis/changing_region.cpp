@@ -15,14 +15,13 @@ constexpr int kUnit = 16 * kAbreast;  // elements that a thread takes at a time
 // Elements from which on threads gain: waking one takes as long as some tens of elements.
 constexpr int kWorthThreads = 600;
 
-// Whether the elements of a group have one matrix for each step size.
+}  // namespace
+
 bool has_matrix_of_step(const GroupData& data) {
   const ElementTraits& traits = data.group->element->traits();
   return traits.linear_in_step && has_constant_stiffness(data.law) &&
          (traits.second_law_size == 0 || has_constant_stiffness(data.second_law));
 }
-
-}  // namespace
 
 ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work)
     : groups_(&groups), element_(&element), work_(&work) {}
@@ -118,8 +117,10 @@ Outcome ChangingRegion::evaluate_four_abreast(GroupData& data, const Eigen::Vect
 // their times.
 bool ChangingRegion::matrices_stand(const GroupData& data) const {
   constexpr double kRounding = 1e-9;
-  const double dt = element_->step_time().dt;
-  return data.keeps_matrices() && dt > 0.0 && std::abs(dt - data.dt_of_matrices) <= kRounding * dt;
+  const auto [dt, flow_dt, theta] = data.step_of_matrices;
+  const StepTime& now = element_->step_time();
+  return data.keeps_matrices() && now.dt > 0.0 && std::abs(now.dt - dt) <= kRounding * dt &&
+         std::abs(now.flow_dt - flow_dt) <= kRounding * flow_dt && now.theta == theta;
 }
 
 Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
@@ -136,7 +137,10 @@ Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::Vector
     else if (replace_matrix(data, e, K))
       tangent->differs();
   }
-  if (tangent != nullptr && in_step) data.dt_of_matrices = element_->step_time().dt;
+  if (tangent != nullptr && in_step) {
+    const StepTime& now = element_->step_time();
+    data.step_of_matrices = {now.dt, now.flow_dt, now.theta};
+  }
   return Outcome::ok;
 }
 

@@ -13,6 +13,9 @@ namespace sage {
 
 class Tangent;
 
+// Whether the elements of a group have one matrix for each step size.
+bool has_matrix_of_step(const GroupData& data);
+
 class ChangingRegion {
  public:
   // All arguments must outlive it.

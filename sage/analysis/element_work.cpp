@@ -83,6 +83,8 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   if (traits.sees_unknowns) {
     in.u0 = committed_of(dofs);
     in.dt = step_time_.dt;
+    in.flow_dt = step_time_.flow_dt;
+    in.theta = step_time_.theta;
   }
   if (traits.sees_coordinates) {
     element_coordinates(model_->mesh, *data.group, element, x_);

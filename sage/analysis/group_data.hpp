@@ -40,8 +40,9 @@ struct GroupData {
   // last element.
   std::vector<double> geometry_four_abreast;
   std::vector<char>
-      constant_four_abreast;    // of each four: FourElementsOut::constant of the matrices that are kept
-  double dt_of_matrices = 0.0;  // of ElementTraits::linear_in_step: of the matrices that are kept; 0 = unknown
+      constant_four_abreast;  // of each four: FourElementsOut::constant of the matrices that are kept
+  // Of ElementTraits::linear_in_step: ElementIn::dt, flow_dt and theta of the matrices that are kept; the first 0 = unknown.
+  std::array<double, 3> step_of_matrices{};
   std::vector<char> moved;  // of each element: the stage prescribes to some dof a displacement that is not zero
   int first_element = 0;    // in the solver's element order, while it is part of the system
   std::vector<double> K;    // kept element matrices, column-major

@@ -216,6 +216,17 @@ Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map) {
   return rate;
 }
 
+Eigen::VectorXd supported_values(const Model& model, int stage, const DofMap& map) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(map.dofs());
+  for (const Stage& before : std::span(model.stages).first(static_cast<std::size_t>(stage))) {
+    values += prescribed_rate(before, map);
+    for (const FieldFixity& f : before.field_fixities)
+      if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::released)
+        values[dof] = 0.0;
+  }
+  return values;
+}
+
 namespace {
 
 // What a geostatic card takes from the total stress at a point; of an interface that of its neighbour.

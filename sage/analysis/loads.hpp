@@ -21,6 +21,9 @@ Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activ
 
 // Displacement that each prescribed dof gets over a stage.
 Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map);
+// Values of supports of the field at the start of a stage, one entry per dof: sums of those of the stages before, from the
+// last one that released it.  Meant for fields whose supports have their own value (UnknownField::of_pores).
+Eigen::VectorXd supported_values(const Model& model, int stage, const DofMap& map);
 
 // Sets the committed stress and history of a group's points.  Stress that a law can't carry is reported as a
 // warning in `diagnostics` with the number of points.

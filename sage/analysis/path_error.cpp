@@ -10,14 +10,13 @@ struct WeightedMean {
   double sum = 0.0, weight = 0.0;
 };
 
-// w of a point of the group: the first of its doubles in the kept geometry.
+// w of a point of the group: the first of its doubles in the kept geometry, whose points stand before what the element
+// has of its own.
 double weight_of(const GroupData& data, const ElementTraits& traits, std::size_t point) {
   const auto points = static_cast<std::size_t>(traits.points);
-  if (!data.four_abreast()) {
-    const auto stride = static_cast<std::size_t>(1 + traits.law_size * traits.dofs);
-    return data
-        .geometry[point / points * static_cast<std::size_t>(traits.geometry_size()) + point % points * stride];
-  }
+  if (!data.four_abreast())
+    return data.geometry[point / points * static_cast<std::size_t>(traits.geometry_size()) +
+                         point % points * static_cast<std::size_t>(1 + traits.law_size * traits.dofs)];
   const auto size = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   const std::size_t element = point / points, place = element % kAbreast;
   return data

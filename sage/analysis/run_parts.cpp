@@ -40,8 +40,10 @@ std::optional<PorePressure> RunParts::water_at(int stage, const Activity& activi
 }
 
 double RunParts::end_of(const RunPlace& place) const {
-  const int increments = model.stages[static_cast<std::size_t>(place.stage)].increments;
-  if (settings.time_scheme == nullptr) return static_cast<double>(place.increment) / increments;
+  const Stage& stage_of_place = model.stages[static_cast<std::size_t>(place.stage)];
+  const int increments = stage_of_place.increments;
+  if (settings.time_scheme == nullptr)
+    return GradedIncrements(stage_of_place.grading).load_factor(place.stage, place.increment, increments);
   if (place.increment == 0) return 0.0;
   const double end = settings.time_scheme->load_factor(place.stage, place.increment, increments);
   const bool is_last = place.increment == increments;

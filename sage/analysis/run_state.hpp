@@ -22,6 +22,8 @@ struct StagePath {
   Eigen::VectorXd force_end;                    // loads at its end
   Eigen::VectorXd water_force;                  // of them, those of water; empty = no water
   Eigen::VectorXd u_start;                      // unknowns at its start, where a region is condensed
+  // Of excess pressures, what has come or gone where stages before held them and this one does not; empty = no such field.
+  Eigen::VectorXd let_in;
   Repeats repeats;
   Prediction prediction;                        // the last step is RunState::du
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
@@ -84,6 +86,7 @@ struct RunState {
     archive(path.force_start);
     archive(path.force_end);
     archive(path.u_start);
+    archive(path.let_in);
   }
 };
 

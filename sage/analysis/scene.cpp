@@ -33,6 +33,10 @@ Scene analyse_scene(const Model& model) {
       throw AnalysisError("S225", "group " + std::to_string(group.number) +
                                       " needs a second material, whose law has " +
                                       std::to_string(traits.second_law_size) + " component(s)");
+    if (traits.second_law_size > 0 && (wants_context(second) || !history_of(second).empty()))
+      throw AnalysisError("S225",
+                          "group " + std::to_string(group.number) +
+                              ": the law of the second material must not depend on place, time or history");
     const bool linear = traits.linear && traits.history.empty() && has_constant_stiffness(law) &&
                         (traits.second_law_size == 0 || has_constant_stiffness(second));
     const bool symmetric =

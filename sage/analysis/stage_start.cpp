@@ -4,6 +4,7 @@
 
 #include "sage/analysis/initial_balance.hpp"
 #include "sage/analysis/loads.hpp"
+#include "sage/analysis/pore_warnings.hpp"
 #include "sage/analysis/stage_warnings.hpp"
 #include "sage/model/active_dofs.hpp"
 
@@ -35,6 +36,48 @@ void StageStart::open(int stage) {
   run_.assembly().commit(state.du);
   find_loads(stage);
   note_imbalance(stage);
+  take_pressures_of_supports(stage);
+}
+
+// Loads of excess pressures are volumes that have left since the beginning, and so are their internal forces.  What came or
+// went where a stage held the pressure is no imbalance where the next one does not.
+void StageStart::let_in_what_came(int stage) {
+  const System& system = run_.system;
+  if (system.activity().pores.empty()) return;
+  RunState& state = run_.state;
+  StagePath& path = state.path;
+  const int dofs = run_.assembly().dof_map().dofs();
+  path.let_in.setZero(dofs);
+  const Eigen::VectorXd before =
+      stage > 0 ? external_force(run_.model, stage - 1) : Eigen::VectorXd(Eigen::VectorXd::Zero(dofs));
+  for (const auto& [dof, supported] : system.activity().pores) {
+    if (run_.assembly().equation_of(dof) >= 0) path.let_in[dof] = path.force_start[dof] - before[dof];
+    state.external[dof] = path.external_start[dof] = before[dof] + path.let_in[dof];
+  }
+  path.force_end += path.let_in;
+}
+
+// A support of an excess pressure has it at once, before any time has passed; the first step balances what that does to the
+// soil (docs/decisions/0070).
+void StageStart::take_pressures_of_supports(int stage) {
+  const Activity& activity = run_.system.activity();
+  if (activity.pores.empty() || run_.stage().pores != PoreWater::flows) return;
+  RunState& state = run_.state;
+  const Eigen::VectorXd values = supported_values(run_.model, stage, activity.dof_map);
+  for (const auto& [dof, supported] : activity.pores)
+    if (supported) state.du[dof] = values[dof] - state.u[dof];
+  run_.warn(closed_part_warnings(run_.model, run_.stage(), activity));
+  if (!state.du.isZero(0.0)) {
+    run_.warn(short_step_warnings(run_.model, run_.stage(), run_.assembly(), state.du,
+                                  run_.end_of({stage, 1}) * run_.stage().duration));
+    if (run_.assembly().evaluate(state.du, nullptr) == Outcome::cut_step)
+      throw AnalysisError("S503", "stage " + std::to_string(stage + 1) +
+                                      ": a law cannot start from the excess pressures of the supports");
+    run_.assembly().commit(state.du);
+    state.u += state.du;
+    state.du.setZero();
+    run_.assembly().evaluate(state.du, nullptr);
+  }
 }
 
 // New nodes have not moved, even where a node of a removed group was.  Before the groups of the stage are activated.
@@ -83,6 +126,7 @@ void StageStart::find_loads(int stage) {
   path.external_start = state.external;
   const std::optional<PorePressure> water = run_.water_at(stage, run_.system.activity(), &state.u);
   begin_water(stage, water ? &*water : nullptr);
+  let_in_what_came(stage);
   path.u_start.resize(0);
   if (run_.assembly().condensation() == nullptr) return;
   path.u_start = state.u;

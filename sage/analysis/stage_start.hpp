@@ -22,6 +22,8 @@ class StageStart {
   void start_states(int stage, const Activity& activity, const std::vector<InitialStress>& initials,
                     bool drainage);
   void find_loads(int stage);
+  void let_in_what_came(int stage);
+  void take_pressures_of_supports(int stage);
   void begin_water(int stage, const PorePressure* water);
   bool begins_with_stress(int stage, std::size_t group) const;
   void evaluate();

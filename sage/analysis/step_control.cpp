@@ -58,7 +58,7 @@ bool StepControl::take_increment(StepReport& report) {
   constexpr std::size_t kEasy = 6;  // iterations
   RunState& state = run_.state;
   const double end = run_.end_of({report.stage, report.increment});
-  const double whole = run_.settings.time_scheme == nullptr
+  const double whole = run_.settings.time_scheme == nullptr && run_.stage().grading == 1.0
                            ? 1.0 / report.increments
                            : end - run_.end_of({report.stage, report.increment - 1});
   double size = end - state.reached;

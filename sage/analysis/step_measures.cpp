@@ -53,6 +53,8 @@ double StepMeasures::take_first(const Eigen::VectorXd& motion, const Eigen::Vect
 // What the first correction of a field makes in its own equations, where another field balances it.
 double StepMeasures::own_forces(const Eigen::VectorXd& motion, int field) const {
   if (fields_.count() == 1 || tangent_.norm1() < 0.0) return 0.0;
+  if (assembly_.flows() && assembly_.linear_in_step())
+    return 0.0;  // no iteration runs away, and there are many steps
   return fields_.norm(tangent_.times(fields_.part(motion, field)), field);
 }
 
@@ -173,10 +175,20 @@ double StepMeasures::of_unknowns(int field) const {
   return kUnitRounding * stiffness_norm(field) * size_of_unknown(field);
 }
 
+// Shut-in water carries a load without any displacement.  What is left of one is the rounding of that which the pressures
+// alone would make.
 double StepMeasures::of_all_unknowns(int field) const {
+  double reach = size_of_unknown(0);
+  const bool pores = settings_.unknowns != nullptr &&
+                     std::ranges::any_of(*settings_.unknowns, [](const UnknownField& f) { return f.of_pores; });
+  if (const double stiffness = pores ? stiffness_norm(0) : 0.0; stiffness > 0.0) {
+    double force = 0.0;
+    for (int f = 1; f < fields_.count(); ++f) force += tangent_.coupling_of(fields_, 0, f) * size_of_unknown(f);
+    reach = std::max(reach, force / stiffness);
+  }
   double sum = 0.0;
   for (int f = 0; f < fields_.count(); ++f)
-    sum += kUnitRounding * tangent_.coupling_of(fields_, field, f) * size_of_unknown(f);
+    sum += kUnitRounding * tangent_.coupling_of(fields_, field, f) * (f == 0 ? reach : size_of_unknown(f));
   return sum;
 }
 

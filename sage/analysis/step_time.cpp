@@ -21,9 +21,20 @@ StepTime step_time_at(const Model& model, int stage, int increment, double load_
                       double easing) {
   double before = 0.0;
   for (int s = 0; s < stage; ++s) before += model.stages[static_cast<std::size_t>(s)].duration;
-  const double duration = model.stages[static_cast<std::size_t>(stage)].duration;
-  return {stage + 1,   increment, before + load_factor * duration, share * duration, before, easing,
-          load_factor, share};
+  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  // Of equal steps with one matrix the time is the same to the last bit, wherever a run is resumed.
+  const bool whole = now.pores == PoreWater::flows && std::abs(share * now.increments - 1.0) < 1e-9;
+  const double dt = (whole ? 1.0 / now.increments : share) * now.duration;
+  return {.stage = stage + 1,
+          .increment = increment,
+          .time = before + load_factor * now.duration,
+          .dt = dt,
+          .stage_start = before,
+          .easing = easing,
+          .load_factor = load_factor,
+          .share = share,
+          .flow_dt = now.pores == PoreWater::flows ? dt : 0.0,
+          .theta = now.theta};
 }
 
 PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2Xd& x, int point,

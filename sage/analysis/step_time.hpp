@@ -11,6 +11,7 @@ struct StepTime {
   double time = 0.0, dt = 0.0, stage_start = 0.0;
   double easing = 1.0;
   double load_factor = 0.0, share = 0.0;  // of the stage: at the end of the step, and what the step takes of it
+  double flow_dt = 0.0, theta = 1.0;      // as in ElementIn
 };
 
 // At a load factor of a stage (0-based), at the end of a step of that share of the stage (0: a state at rest).

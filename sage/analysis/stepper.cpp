@@ -34,7 +34,8 @@ bool Stepper::can_repeat(double size) const {
   const Method method = run_.stage().method;
   const bool newton = method == Method::newton || method == Method::dogleg;
   const bool pays = !run_.tangent().constant() || (!flow_alone_ && is_large(run_.assembly().equations()));
-  return run_.settings.skips.repeats && newton && pays && run_.state.path.repeats.due(size);
+  const bool flows = run_.stage().pores == PoreWater::flows;  // whatever loads do
+  return run_.settings.skips.repeats && !flows && newton && pays && run_.state.path.repeats.due(size);
 }
 
 NewtonSettings Stepper::settings() const {

@@ -89,6 +89,8 @@ void System::open_stage(int s) {
   const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
   rate_ = prescribed_rate(stage, activity_.dof_map);
   enter(stage);
+  if (stage.pores != PoreWater::flows)
+    for (const auto& [dof, supported] : activity_.pores) rate_[dof] = 0.0;
   const bool condensed_before = assembly_.condensation() != nullptr;
   assembly_.enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
     return make(*choose_solver(equations, symmetric), true);

@@ -93,6 +93,9 @@ struct MaterialEntry {
   // First values that a material states itself; initial cards come after them.  Empty: none does.
   std::function<OwnStart(std::span<const double> values, const std::string& material)> own_start{};
   bool flow = false;  // a law of water in soil: for elements of ElementKind::flow alone
+  // A law of water in the pores of a solid: the second law of elements that solve for its pressure, of the slope of that
+  // pressure and its change in the step.
+  bool of_pores = false;
 
   bool for_solids() const { return law_size == 4; }
   // Place of a parameter on the card, from 0; -1 = there is none.  Of several of a role the first.
@@ -109,7 +112,7 @@ struct MaterialEntry {
 };
 
 inline std::string law_words(const MaterialEntry& entry) {
-  return entry.flow ? "flow of water" : law_words(entry.law_size);
+  return entry.flow ? "flow of water" : entry.of_pores ? "flow of pore water" : law_words(entry.law_size);
 }
 
 struct Formulation {
@@ -174,6 +177,10 @@ struct ElementEntry {
   bool moves() const {
     return unknowns.empty() ||
            std::ranges::any_of(unknowns, [](const ElementUnknown& one) { return one.field.displacement(); });
+  }
+  // It solves for the excess pressure of pore water.
+  bool has_pores() const {
+    return std::ranges::any_of(unknowns, [](const ElementUnknown& one) { return one.field.of_pores; });
   }
   bool triangle() const { return shape == ParentShape::triangle; }
   bool square() const { return shape == ParentShape::square; }

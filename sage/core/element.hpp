@@ -41,6 +41,7 @@ struct ElementTraits {
   // What the element itself remembers at each point, behind the quantities of the law in ElementIn::h0 and
   // ElementOut::h1.  Committed, restarted and written like the law's; such an element is never taken for linear.
   std::span<const Quantity> history = {};
+  int pressure_history = -1;  // of them the excess pressure of pore water, which the law's stress is without
   // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs) + own_doubles; }
 };
@@ -58,6 +59,8 @@ struct ElementIn {
   // For elements that see them: committed unknowns (dofs), and the time of the step; 0 at a state that stands.
   const double* u0 = nullptr;
   double dt = 0.0;
+  // Of that time what water has to flow in, and where in the step its flow is taken (0.5 .. 1).
+  double flow_dt = 0.0, theta = 1.0;
   const double* x = nullptr;  // sees_coordinates: of the nodes as the mesh has them, x1 y1 x2 y2 ...
   // Elements with two laws (a skeleton and the flow through it): the other one.  What it needs to remember is part of the
   // element's own history.

@@ -28,6 +28,8 @@ std::string unit_text(Dimension dimension, const UnitSystem& units) {
       return units.force + " " + units.length;
     case Dimension::bending_stiffness:
       return units.force + " " + units.length + "^2";
+    case Dimension::volume:
+      return units.length + "^3";
   }
   return "-";
 }

@@ -19,6 +19,7 @@ enum class Dimension {
   discharge,          // m^3/time (full circle when axisymmetric, unit thickness in plane strain)
   moment,             // lbf in, kN m
   bending_stiffness,  // lbf in^2, kN m^2
+  volume,             // m^3 (full circle when axisymmetric, unit thickness in plane strain)
 };
 
 struct UnitSystem {

@@ -19,6 +19,10 @@ struct UnknownField {
   // Turns with the body, counter-clockwise: held, it stops a rigid rotation; zero on an axis of symmetry.
   bool turns = false;
 
+  // Excess pressure of pore water.  The stage says whether it is kept, shut in or lets water flow (Stage::pores); a held
+  // one has its own value, whatever it was before (docs/decisions/0070).
+  bool of_pores = false;
+
   bool displacement() const { return name == "displacement"; }
   int components() const { return displacement() ? 2 : 1; }
 };

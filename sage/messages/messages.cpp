@@ -774,6 +774,39 @@ constexpr MessageEntry kMessages[] = {
      "has.",
      "Give both groups one line that falls from level to level, put the wall or joint between them that holds "
      "the water back, or compute the heads by elements of flow."},
+    {"S361", "what pore water does in a stage is unknown, or no element has any",
+     "The field pore_water of a stage card is 0 (excess pressures stay as they are), 1 (undrained: no water "
+     "moves) or 2 "
+     "(consolidation). Codes 1 and 2 need elements that solve for the pressure of pore water.",
+     "Correct the code, or use quad8p4, quad9p4 or tri6p3 with a second material pore_flow "
+     "(docs/manual/consolidation.md)."},
+    {"S362", "the division of a stage's time is out of range",
+     "theta lies between 0.5 (Crank-Nicolson) and 1 (backward Euler). The ratio of an increment to the one "
+     "before lies "
+     "between 0.01 and 100.",
+     "Correct the field; blank is 1."},
+    {"S363", "the first step of a consolidation stage is short",
+     "Where a pressure starts to fall at a drained node, a step below h^2 / (6 theta c) gives excess pressures "
+     "that "
+     "oscillate from node to node beside it, with quadratic elements of size h and a coefficient of "
+     "consolidation c. "
+     "They are those of the discrete equations, and die out.",
+     "Make the mesh finer at the drained node, or the first step longer; a grading above 1 serves the later "
+     "ones."},
+    {"S364", "excess pressures oscillate",
+     "A corner has a higher excess pressure than all corners around it, and one of those a lower one than all "
+     "around it, "
+     "by more than 1 % of the largest. Pressures of the soil have no such waves.",
+     "Make the mesh finer at drained nodes, or the first steps longer; theta = 1 damps what theta = 0.5 "
+     "keeps."},
+    {"S365", "water can't leave",
+     "No excess pressure is held in a part of the model, so that all water stays within it: the pressures even "
+     "out and "
+     "do not go to zero.",
+     "Hold the excess pressure (unknown excess_pressure, code 1) where water may leave, if that is meant."},
+    {"S366", "a group has its pore water twice",
+     "A water card makes a group undrained (or drained) whose elements solve for the pressure of their water.",
+     "Leave the card away: stages say whether that water is shut in (field pore_water)."},
     {"S401", "elements of different degree meet",
      "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
      "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},

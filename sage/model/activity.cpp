@@ -40,12 +40,21 @@ Activity::Activity(const Model& model)
   for (const Stage& stage : model.stages)
     for (int g : stage.births) group[static_cast<std::size_t>(g)] = 0;
   apply(model.fixities, model.field_fixities, dof_map, held);
+  for (int dof = dof_map.displacements(); dof < dof_map.dofs(); ++dof)
+    if (model.unknowns[static_cast<std::size_t>(dof_map.at(dof).field)].of_pores)
+      pores.emplace_back(dof, held[static_cast<std::size_t>(dof)]);
 }
 
 void Activity::enter(const Stage& stage) {
   for (int g : stage.births) group[static_cast<std::size_t>(g)] = 1;
   for (int g : stage.deaths) group[static_cast<std::size_t>(g)] = 0;
+  for (const auto& [dof, supported] : pores) held[static_cast<std::size_t>(dof)] = supported;
   apply(stage.fixities, stage.field_fixities, dof_map, held);
+  for (auto& [dof, supported] : pores) {
+    char& now = held[static_cast<std::size_t>(dof)];
+    supported = now;
+    if (stage.pores != PoreWater::flows) now = stage.pores == PoreWater::kept;
+  }
 }
 
 std::vector<char> active_nodes(const Model& model, const Activity& activity) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sage/model/dof_map.hpp"
@@ -22,6 +23,8 @@ struct Activity {
   DofMap dof_map;
   std::vector<char> group;  // active now
   std::vector<char> held;   // a dof: prescribed
+  // Excess pressures of pore water, one entry each: whether supports hold it, while the stage may keep or free them all.
+  std::vector<std::pair<int, char>> pores;  // dof and flag
 };
 
 // A flag for every node: some element of an active group has it.

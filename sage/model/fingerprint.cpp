@@ -24,6 +24,8 @@ void add_initials(Archive& archive, const std::vector<InitialStress>& initials) 
 }
 
 void add_stage(Archive& archive, const Stage& s) {
+  if (s.pores != PoreWater::kept || s.theta != 1.0 || s.grading != 1.0)
+    add(archive, s.pores, s.theta, s.grading);
   add(archive, s.title, s.increments, s.duration, s.method, s.max_iterations, s.output_every, s.tolerance,
       s.gravity.x(), s.gravity.y());
   add_fixities(archive, s.fixities);

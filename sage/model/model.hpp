@@ -1,6 +1,7 @@
 // The model: what the deck means.  Plain data with internal signs (tension +) and 0-based indices.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -169,11 +170,21 @@ struct WaterCard {
 
 enum class Method { newton, modified_newton, initial_stiffness, dogleg };
 
+// What the water in the pores of coupled elements does in a stage.
+enum class PoreWater {
+  kept,     // its pressures stay as they are, and as much as that needs comes or goes
+  shut_in,  // none moves: undrained
+  flows,    // consolidation
+};
+
 struct Stage {
   int number = 0;
   std::string title;
   int increments = 1;
   double duration = 1.0;  // for laws that depend on time; the load factor grows in proportion to time
+  PoreWater pores = PoreWater::kept;
+  double theta = 1.0;    // of the theta method of flowing pore water, 0.5 .. 1
+  double grading = 1.0;  // each increment over the one before
   Method method = Method::newton;
   int max_iterations = 25;
   int output_every = 1;
@@ -233,6 +244,12 @@ struct Model {
   const Material& material_of(const Group& group) const {
     return materials[static_cast<std::size_t>(group.material)];
   }
+  // Place among the unknowns of the excess pressure of pore water; -1 = no element solves for it.
+  int pore_field() const {
+    const auto found = std::ranges::find(unknowns, true, &UnknownField::of_pores);
+    return found == unknowns.end() ? -1 : static_cast<int>(found - unknowns.begin());
+  }
+  bool has_pores() const { return pore_field() >= 0; }
   // Holds nullptr where the group has one law.
   LawRef second_law_of(const Group& group) const {
     if (group.second_material < 0) return {};
