@@ -40,6 +40,9 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(43, flow_tri3_entry());
   catalogue.elements.add(44, flow_tri6_entry());
   catalogue.elements.add(45, flow_quad9_entry());
+  catalogue.elements.add(61, quad8p4_entry());
+  catalogue.elements.add(62, quad9p4_entry());
+  catalogue.elements.add(63, tri6p3_entry());
   catalogue.elements.add(31, bar2_entry());
   catalogue.elements.add(32, bar3_entry());
   catalogue.elements.add(33, spring2_entry());

@@ -16,6 +16,7 @@
 #include "materials/modified_cam_clay.hpp"
 #include "materials/mohr_coulomb.hpp"
 #include "materials/mohr_coulomb_softening.hpp"
+#include "materials/pore_flow.hpp"
 #include "materials/section.hpp"
 
 namespace sage {
@@ -47,6 +48,7 @@ void register_materials(Catalogue& catalogue) {
   // Water
   catalogue.materials.add(41, darcy_entry());
   catalogue.materials.add(42, darcy_free_surface_entry());
+  catalogue.materials.add(43, pore_flow_entry());
 }
 
 }  // namespace sage

@@ -176,6 +176,9 @@ PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t poin
     view.pore_pressure += excess;
     stress.head<3>().array() -= excess;
   }
+  if (const ElementTraits& traits = data.group->element->traits(); traits.pressure_history >= 0)
+    view.pore_pressure += view.history[view.history.size() - traits.history.size() +
+                                       static_cast<std::size_t>(traits.pressure_history)];
   view.effective = stress;
 }
 
