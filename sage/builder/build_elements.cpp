@@ -428,7 +428,8 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
   if (group.element == nullptr) return;
   const int number = card.integer("second_material"), size = group.element->traits().second_law_size;
   const std::string name = "group " + std::to_string(group.number);
-  if (number == 0) return;
+  const bool pores = group.entry->has_pores();
+  if (number == 0 && !pores) return;
   if (size == 0) {
     b.error("S225", card.where("second_material"), name + ": a " + group.entry->name + " has one law only");
     return;
@@ -437,11 +438,13 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
   if (found != b.material_index.end()) {
     group.second_material = found->second;
     const Material& second = b.model.materials[static_cast<std::size_t>(found->second)];
-    if (law_size_of(b, second) == size) return;
+    const MaterialEntry* const law = b.catalogue.materials.find(second.code);
+    if (law_size_of(b, second) == size && law->of_pores == pores && !law->flow) return;
   }
   b.error("S225", card.where("second_material"),
-          name + ": a " + group.entry->name + " needs a second material, whose law has " +
-              std::to_string(size) + (size == 1 ? " component" : " components"));
+          name + ": a " + group.entry->name + " needs a second material, whose law " +
+              (pores ? std::string("is for flow of pore water: pore_flow")
+                     : "has " + std::to_string(size) + (size == 1 ? " component" : " components")));
 }
 
 }  // namespace
@@ -497,7 +500,7 @@ void build_groups(Builder& b) {
       if (material != b.material_index.end()) {
         const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
         const MaterialEntry* law = b.catalogue.materials.find(m.code);
-        if (law != nullptr && (law->law_size != entry->law_size || law->flow != entry->flow()))
+        if (law != nullptr && (law->law_size != entry->law_size || law->flow != entry->flow() || law->of_pores))
           b.error("S225", card.where("material"),
                   name + ": a " + entry->name + " needs a law for " + laws_for(*entry) + ", material " +
                       std::to_string(m.number) + " is " + law->name);

@@ -107,7 +107,8 @@ void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std
   const char* const values[] = {"x_value", "y_value"};
   for (std::size_t c = 0; c < 2; ++c) {
     b.usable(card, values[c], fixity.value[c]);
-    if (in_stage && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
+    const bool own_value = b.model.unknowns[static_cast<std::size_t>(field)].of_pores;
+    if (in_stage && !own_value && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
       b.note("S234", card.where(values[c]),
              "the " + card.label(values[c]) + " is left blank: held where it is" +
                  (field > 0 ? "" : ", displacement 0"));
@@ -389,6 +390,27 @@ void read_groups(Builder& b, const CardView& card, bool death, std::vector<int>&
   }
 }
 
+// What pore water does, and how its time is divided.
+void read_pores(Builder& b, const CardView& card, Stage& stage) {
+  const int code = card.integer("pore_water");
+  if (code < 0 || code > 2)
+    b.error(
+        "S361", card.where("pore_water"),
+        "code " + std::to_string(code) + " is unknown; 0 excess pressures stay, 1 undrained, 2 consolidation");
+  else
+    stage.pores = static_cast<PoreWater>(code);
+  if (code != 0 && b.groups_known && !b.model.has_pores())
+    b.error("S361", card.where("pore_water"),
+            "no element of the deck solves for the pressure of pore water; quad8p4, quad9p4 and tri6p3 do");
+  if (card.real("theta") != 0.0) stage.theta = card.real("theta");
+  if (b.usable(card, "theta", stage.theta) && !(stage.theta >= 0.5 && stage.theta <= 1.0))
+    b.error("S362", card.where("theta"), "theta must lie between 0.5 and 1 (blank = 1)");
+  if (card.real("grading") != 0.0) stage.grading = card.real("grading");
+  if (b.usable(card, "grading", stage.grading) && !(stage.grading >= 0.01 && stage.grading <= 100.0))
+    b.error("S362", card.where("grading"),
+            "an increment over the one before must lie between 0.01 and 100 (blank = 1)");
+}
+
 Stage read_stage(Builder& b, const CardView& card, int number) {
   Stage stage;
   stage.number = number;
@@ -399,6 +421,7 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   if (card.real("duration") != 0.0) stage.duration = card.real("duration");
   if (b.usable(card, "duration", stage.duration) && !(stage.duration > 0.0))
     b.error("S238", card.where("duration"), "the duration of a stage must not be negative (blank = 1)");
+  read_pores(b, card, stage);
   const int method = card.integer("method");
   if (method < 0 || method > 3)
     b.error("S210", card.where("method"),

@@ -271,6 +271,12 @@ void read_undrained(Builder& b, const CardView& card, WaterCard water, std::map<
   }
   for (const int g : all) {
     Group& group = b.model.groups[static_cast<std::size_t>(g)];
+    if (group.entry != nullptr && group.entry->has_pores()) {
+      b.error("S366", card.where(),
+              "group " + std::to_string(group.number) + " (" + group.element_name +
+                  ") solves for the pressure of its pore water; its stages say whether it is shut in");
+      continue;
+    }
     water.group = g;
     water.value = bulk_of(b, card, group);
     if (!(water.value > 0.0)) return;
@@ -458,7 +464,7 @@ void build_water(Builder& b) {
   }
   check_undrained(b);
   warn_of_water_cards(b);
-  if (!b.model.water.empty()) b.model.fields.add_free(water_fields());
+  if (!b.model.water.empty() || b.model.has_pores()) b.model.fields.add_free(water_fields());
   b.water_nodes = b.model.mesh.nodes();
 }
 

@@ -386,7 +386,7 @@ void note_null_stage(Builder& b, const Stage& stage) {
   any = any || !stage.field_loads.empty() || !stage.exits.empty();
   const bool water =
       std::ranges::any_of(b.model.water, [&](const WaterCard& card) { return card.stage + 1 == stage.number; });
-  if (any || (water && stage.number > 1)) return;
+  if (any || (water && stage.number > 1) || stage.pores == PoreWater::flows) return;
   if (water) {
     b.note("S316", stage.where,
            "stage 1 adds water alone: no weight, load or displacement; is gravity missing?");

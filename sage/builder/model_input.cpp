@@ -145,6 +145,8 @@ void InputCards::add_group(const GroupInput& group, int number) {
       {"formulation", formulation_code(group, whose + "the formulation")},
       {"material", static_cast<double>(group.material)},
       {"overlay", group.overlay ? 1.0 : 0.0}};
+  if (group.second_material != 0)
+    fields.push_back({"second_material", static_cast<double>(group.second_material)});
   if (!group.name.empty()) fields.push_back({"name", 0.0, {}, group.name});
   add("group", fields);
 }
@@ -190,15 +192,19 @@ void InputCards::add_initial(const InitialInput& initial, const std::string& car
 
 void InputCards::add_stage(const StageInput& stage, int number) {
   add("stage_title", {{"title", 0.0, {}, stage.title.empty() ? fmt::format("stage {}", number) : stage.title}});
-  const int card = add("stage", {{"increments", static_cast<double>(stage.increments)},
-                                 {"method", static_cast<double>(stage.method)},
-                                 {"max_iterations", static_cast<double>(stage.max_iterations)},
-                                 {"births", count_of(stage.births)},
-                                 {"deaths", count_of(stage.deaths)},
-                                 {"gravity_x", stage.gravity.x()},
-                                 {"gravity_y", stage.gravity.y()},
-                                 {"tolerance", stage.tolerance},
-                                 {"duration", stage.duration}});
+  std::vector<NewField> own{{"increments", static_cast<double>(stage.increments)},
+                            {"method", static_cast<double>(stage.method)},
+                            {"max_iterations", static_cast<double>(stage.max_iterations)},
+                            {"births", count_of(stage.births)},
+                            {"deaths", count_of(stage.deaths)},
+                            {"gravity_x", stage.gravity.x()},
+                            {"gravity_y", stage.gravity.y()},
+                            {"tolerance", stage.tolerance},
+                            {"duration", stage.duration}};
+  if (stage.pores != PoreWater::kept) own.push_back({"pore_water", static_cast<double>(stage.pores)});
+  if (stage.theta != 1.0) own.push_back({"theta", stage.theta});
+  if (stage.grading != 1.0) own.push_back({"grading", stage.grading});
+  const int card = add("stage", own);
   for (const SupportInput& support : stage.supports) add_support(support, "fixity", card);
   for (const LoadInput& load : stage.loads)
     for (const int node : load.nodes) {

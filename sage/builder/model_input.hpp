@@ -27,7 +27,8 @@ struct GroupInput {
   std::vector<std::vector<int>> elements;
   std::string formulation = {};  // "b-bar"; empty: the element's own
   std::string name = {};
-  bool overlay = false;  // lies on the elements of other groups on purpose
+  bool overlay = false;     // lies on the elements of other groups on purpose
+  int second_material = 0;  // of elements that have two laws; 0 = none
 };
 
 // Of each of the nodes.  Values are displacements of this stage.
@@ -66,6 +67,9 @@ struct StageInput {
   double tolerance = 0.0;
   Vector2 gravity = Vector2::Zero();  // added, in multiples of the unit weights: (0, -1) is the whole weight
   double duration = 1.0;
+  PoreWater pores = PoreWater::kept;
+  double theta = 1.0;    // of the theta method of flowing pore water, 0.5 .. 1
+  double grading = 1.0;  // each increment over the one before
   std::vector<SupportInput> supports = {};
   std::vector<LoadInput> loads = {};
   std::vector<PressureInput> pressures = {};

@@ -45,11 +45,18 @@ void lengthen_cards(Layout& layout) {
   for (int i = 9; i <= kWideNodes; ++i)
     nodes.push_back(field("n" + std::to_string(i), "node " + std::to_string(i), FieldKind::integer));
   lengthen(layout, "element", std::to_string(nodes.size()) + "I10", nodes);
+  lengthen(layout, "group", "I10",
+           {field("second_material", "material number of the second law, of elements that have two",
+                  FieldKind::integer)});
   lengthen(
-      layout, "stage", "2F20.0",
+      layout, "stage", "2F20.0,I10,2F20.0",
       {field("duration", "time that the stage lasts, for laws that depend on it; blank = 1", FieldKind::real),
        field("strength_factor", "factor by which strengths were divided, for the table of results",
-             FieldKind::real)});
+             FieldKind::real),
+       field("pore_water", "pore water: 0 its excess pressures stay, 1 undrained, 2 consolidation",
+             FieldKind::integer),
+       field("theta", "theta of the steps of consolidation, 0.5 to 1; blank = 1", FieldKind::real),
+       field("grading", "each increment over the one before; blank = 1", FieldKind::real)});
 }
 
 }  // namespace
@@ -57,7 +64,7 @@ void lengthen_cards(Layout& layout) {
 Layout wide_layout(Layout layout) {
   layout.title += ", with wide fields";
   layout.name += "_wide";
-  layout.records.record_length *= 3;
+  layout.records.record_length = 3 * layout.records.record_length + 10;  // the longest card is that of a stage
   layout.first_sequence_column = layout.last_sequence_column = 0;
   layout.marks.clear();
   layout.example.clear();  // its columns are those of the narrow fields

@@ -270,7 +270,10 @@ void Sage1Writer::groups() {
     integer(group.formulation);
     integer(model_.material_of(group).number);
     name(group.name, 40);
-    if (group.overlay) integer(1);
+    if (group.second_material >= 0 && !wide_) throw TooWide{"of the second material of a group"};
+    if (group.overlay || group.second_material >= 0) integer(group.overlay ? 1 : 0);
+    if (group.second_material >= 0)
+      integer(model_.materials[static_cast<std::size_t>(group.second_material)].number);
     line();
   }
 }
@@ -395,7 +398,8 @@ void Sage1Writer::list(const std::vector<int>& groups) {
 }
 
 void Sage1Writer::stage(const Stage& stage) {
-  const bool lasts = stage.duration != 1.0, factor = stage.strength_factor != 0.0;
+  const bool pores = stage.pores != PoreWater::kept || stage.theta != 1.0 || stage.grading != 1.0;
+  const bool lasts = stage.duration != 1.0, factor = stage.strength_factor != 0.0 || pores;
   if ((lasts || factor) && !wide_) throw TooWide{"of the stage's duration or strength factor"};
   // A '*' in column 1 would make the title a comment.
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
@@ -413,6 +417,11 @@ void Sage1Writer::stage(const Stage& stage) {
   for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);
   if (lasts || factor) real(stage.duration);
   if (factor) real(stage.strength_factor);
+  if (pores) {
+    integer(static_cast<long>(stage.pores));
+    real(stage.theta);
+    real(stage.grading);
+  }
   line();
   for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);
