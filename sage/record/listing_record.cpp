@@ -52,9 +52,17 @@ void node_rows(std::string& text, const Model& model, const std::vector<NodesRow
       to(text), "   {:>5}{:>6}{:>14}{:>14}{:>14}{:>14}    (mean displacement {}, sum of forces {})\n", "stage",
       "incr", fmt::format("u-{}", names.x), fmt::format("u-{}", names.y), fmt::format("force-{}", names.x),
       fmt::format("force-{}", names.y), model.units.length, model.units.force);
+  if (model.has_pores())
+    fmt::format_to(
+        to(text),
+        "   then: time, mean excess pressure {}, volume {} that has left through the nodes, degree of "
+        "consolidation of the model\n",
+        model.units.stress, unit_text(Dimension::volume, model.units));
   for (const NodesRow& r : rows) {
     fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
     for (double v : {r.displacement[0], r.displacement[1], r.force[0], r.force[1]}) put(text, v, 14, 6);
+    if (model.has_pores())
+      for (double v : r.pores) put(text, v, 14, 6);
     text += holds(r) ? " *\n" : "\n";
   }
   if (std::ranges::any_of(rows, holds)) text += kHeldNote;

@@ -81,8 +81,12 @@ std::string remarks(const Model& model, std::size_t index) {
     return fmt::format(
         "# node report: mean displacement since the start of stage {}, sum of the forces that loads and "
         "supports "
-        "put on the nodes, without the weight of the soil; positive along +x, +y; forces {}\n",
-        report.stage + 1, per);
+        "put on the nodes, without the weight of the soil; positive along +x, +y; forces {}\n{}",
+        report.stage + 1, per,
+        model.has_pores()
+            ? "# excess_pressure: mean of the nodes; outflow: volume that has left through them; degree: "
+              "of consolidation, of the whole model\n"
+            : "");
   if (report.kind == ReportKind::discharge)
     return fmt::format(
         "# discharge through a line of nodes, from its left to its right; volumes per time {}\n"
@@ -127,8 +131,15 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
             {"measured_axial", u.stress},
             {"correct_axial", u.stress, true},
             {"ratio", "-", true}};
-  if (report.kind == ReportKind::nodes)
-    return {{"ux", u.length}, {"uy", u.length}, {"fx", u.force}, {"fy", u.force}};
+  if (report.kind == ReportKind::nodes) {
+    std::vector<ReportColumn> columns{{"ux", u.length}, {"uy", u.length}, {"fx", u.force}, {"fy", u.force}};
+    if (model.has_pores())
+      columns.insert(columns.end(), {{"time", "-"},
+                                     {"excess_pressure", u.stress, true},
+                                     {"outflow", unit_text(Dimension::volume, u), true},
+                                     {"degree", "-", true}});
+    return columns;
+  }
   if (report.kind == ReportKind::discharge)
     return {{"discharge", unit_text(Dimension::discharge, u), true},
             {"gradient", "-", true},
@@ -280,6 +291,7 @@ bool Reports::wants_nodes(const Model& model, const StepReport& step, std::span<
 void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
   if (series_.empty()) return;
   enter_points(model, solution);
+  if (model.stages[static_cast<std::size_t>(stage)].pores == PoreWater::flows) first_pressure_ = pressure_;
   const Weights weights(model, stage);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
@@ -392,12 +404,62 @@ void Reports::add_triaxial(Series& series, std::size_t index, const StepReport& 
   series.triaxial.push_back(r);
 }
 
-void Reports::add_nodes(Series& series, const StepReport& step, const NodeSums& sums) {
+namespace {
+
+// Integral of the excess pressure, by the mean of each element's corners.
+double integral_of_pressure(const Model& model, const Solution& solution) {
+  const int field = model.pore_field();
+  double sum = 0.0;
+  std::vector<double> geometry;
+  Eigen::Matrix2Xd x;
+  for (const GroupData& data : solution.groups()) {
+    const ElementTraits& traits = data.group->element->traits();
+    if (!data.active || !data.group->entry->has_pores()) continue;
+    geometry.resize(static_cast<std::size_t>(traits.geometry_size()));
+    const int corners = data.group->entry->corners;
+    for (int e = 0; e < data.group->elements(); ++e) {
+      element_coordinates(model.mesh, *data.group, e, x);
+      data.group->element->geometry(x, geometry);
+      double volume = 0.0, pressure = 0.0;
+      for (int p = 0; p < traits.points; ++p)
+        volume += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+      for (int i = 0; i < corners; ++i)
+        pressure += (*solution.u)[solution.activity->dof_map.of(data.group->nodes_of(e)[i], field)];
+      sum += volume * pressure / corners;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
+void Reports::add_nodes(Series& series, const Report& report, const StepReport& step, const NodeSums& sums,
+                        const Solution& solution) {
   NodesRow r{step.stage + 1, step.increment, {}, {}, {}};
   for (int c = 0; c < 2; ++c) {
     r.displacement[c] = sums.displacement[c] - series.start_displacement[c];
     r.force[c] = sums.force[c];
     r.held[c] = (1.0 - step.load_factor) * series.released[static_cast<std::size_t>(c)];
+  }
+  if (model_->has_pores()) {
+    const Activity& activity = *solution.activity;
+    double time = 0.0, pressure = 0.0, left = 0.0;
+    int count = 0, held = 0;
+    for (int s = 0; s <= step.stage; ++s)
+      time += model_->stages[static_cast<std::size_t>(s)].duration * (s == step.stage ? step.load_factor : 1.0);
+    for (const int node : report.nodes) {
+      const int dof = activity.dof_map.of(node, model_->pore_field());
+      if (dof < 0) continue;
+      ++count;
+      pressure += (*solution.u)[dof];
+      if (!activity.held[static_cast<std::size_t>(dof)]) continue;
+      ++held;
+      left += (*solution.internal)[dof] - (*solution.external)[dof];
+    }
+    r.pores[0] = time;
+    r.pores[1] = count > 0 ? pressure / count : kUnknown;
+    r.pores[2] = held > 0 ? left : kUnknown;
+    r.pores[3] = first_pressure_ != 0.0 ? 1.0 - pressure_ / first_pressure_ : kUnknown;
   }
   series.nodes.push_back(r);
 }
@@ -459,7 +521,9 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
   }
   if (row < series.nodes.size()) {
     const NodesRow& r = series.nodes[row];
-    return {r.displacement[0], r.displacement[1], r.force[0], r.force[1]};
+    std::vector<double> values{r.displacement[0], r.displacement[1], r.force[0], r.force[1]};
+    if (model_->has_pores()) values.insert(values.end(), std::begin(r.pores), std::end(r.pores));
+    return values;
   }
   if (row < series.discharges.size()) {
     const DischargeRow& r = series.discharges[row];
@@ -501,6 +565,7 @@ void Reports::append_row(std::size_t index) {
 
 void Reports::add_rows(const Model& model, const StepReport& step, const Solution& solution) {
   enter_points(model, solution);
+  if (model.has_pores() && !series_.empty()) pressure_ = integral_of_pressure(model, solution);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
     const Report& report = model.reports[i];
@@ -516,7 +581,7 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
       if (report.kind == ReportKind::triaxial)
         add_triaxial(series, i, step, sums);
       else
-        add_nodes(series, step, sums);
+        add_nodes(series, report, step, sums, solution);
     }
     append_row(i);
     if (to_files_)
@@ -566,6 +631,8 @@ void exchange_texts(Archive& archive, std::vector<std::string>& texts) {
 
 // The law's own test is driven again through the strains of the rows so far.
 void Reports::exchange(Archive& archive) {
+  archive(pressure_);
+  archive(first_pressure_);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
     series.file.exchange(archive);

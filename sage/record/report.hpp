@@ -40,6 +40,10 @@ struct NodesRow {
   double displacement[2] = {0, 0};
   double force[2] = {0, 0};
   double held[2] = {0, 0};
+  // Of models with pore water: the time (sum of the stages' durations), the mean excess pressure of those nodes that have
+  // one, the volume that has left through those that are held, and the degree of consolidation of the model: 1 less the
+  // mean excess pressure over that at the start of the last stage of consolidation.  NaN = there is none.
+  double pores[4] = {};
 };
 
 // One increment of a point report.  Displacement along +x and +y and strain since the start of the report's
@@ -177,7 +181,7 @@ class Reports final : public Output {
   void enter_points(const Model&, const Solution&);
   static void count_from_here(Series&, const Model&, const Solution&);
   void add_triaxial(Series&, std::size_t index, const StepReport&, const NodeSums&);
-  static void add_nodes(Series&, const StepReport&, const NodeSums&);
+  void add_nodes(Series&, const Report&, const StepReport&, const NodeSums&, const Solution&);
   static void add_point(Series&, const Model&, const StepReport&, const Solution&);
   static void add_discharge(Series&, const Model&, const Report&, const StepReport&, const Solution&);
   void append_row(std::size_t index);
@@ -192,6 +196,8 @@ class Reports final : public Output {
   std::vector<std::vector<ReportColumn>> columns_;
   FieldTable fields_;
   const Model* model_ = nullptr;  // since on_start
+  double pressure_ = 0.0;         // integral of the excess pressure at the last increment
+  double first_pressure_ = 0.0;   // at the start of the last stage of consolidation
   std::vector<char> probed_;      // groups that were active when the probes were made
   std::vector<std::filesystem::path> files_;
 };
