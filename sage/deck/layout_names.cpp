@@ -48,7 +48,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "stage_title", false, "title", "", ""},
     {"sage1", "stage", true, "",
      "increments duration method max_iterations output_every gravity_x gravity_y tolerance "
-     "strength_factor",
+     "strength_factor pore_water theta grading",
      ""},
     {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown", "!stage"},
     {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "!stage"},
@@ -102,6 +102,10 @@ constexpr KnownCard kKnown[] = {
     {"rectangle", "rectangle_x", true, "x", "", ""},
     {"rectangle", "rectangle_y", true, "y", "", ""},
     {"rectangle", "surcharge", false, "pressure", "", ""},
+    {"rectangle", "cell", false, "stress", "", ""},
+    {"rectangle", "times", false, "time_step steps", "theta print_every print_node", ""},
+    {"rectangle", "load_function", false, "", "points", ""},
+    {"rectangle", "load_time", false, "time factor", "", ""},
     {"rectangle", "iteration", false, "", "increments displacement", ""},
 
     {"slope", "slope", true, "crest slope toe height depth columns toe_columns rows foundation_rows",
@@ -120,7 +124,8 @@ constexpr KnownCard kKnown[] = {
     {"body", "inflow", false, "first inflow", "", ""},
     {"body", "element_materials", false, "materials", "", ""},
     {"body", "restraints", false, "", "count", ""},
-    {"body", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value", ""},
+    {"body", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value pressure_code",
+     ""},
     {"body", "load", false, "first x_force|y_force", "x_force y_force", ""},
 
     {"steps", "gravity", false, "gravity_x|gravity_y", "gravity_x gravity_y", ""},

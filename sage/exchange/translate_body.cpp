@@ -25,6 +25,13 @@ int flow_code(const Catalogue& catalogue, ParentShape shape, int nodes) {
   throw std::logic_error("the catalogue has no element of flow with " + std::to_string(nodes) + " nodes");
 }
 
+int pore_code(const Catalogue& catalogue, int nodes) {
+  for (const auto& [code, entry] : catalogue.elements.entries())
+    if (entry.has_pores() && entry.square() && entry.nodes == nodes) return code;
+  throw std::logic_error("the catalogue has no element of consolidation with " + std::to_string(nodes) +
+                         " nodes");
+}
+
 // The integration that the deck asks for; blank = 4 points of the 8-node quadrilateral.
 Kind element_kind(const Body& body) {
   if (body.flows())
@@ -32,8 +39,11 @@ Kind element_kind(const Body& body) {
                       body.nodes_per_element),
             0};
   const int points = body.card.integer("integration_points", 4);
-  const int code = solid_code(body.catalogue, body.triangles ? ParentShape::triangle : ParentShape::square,
-                              body.nodes_per_element);
+  const int code =
+      body.consolidates()
+          ? pore_code(body.catalogue, body.nodes_per_element)
+          : solid_code(body.catalogue, body.triangles ? ParentShape::triangle : ParentShape::square,
+                       body.nodes_per_element);
   const ElementEntry& entry = *body.catalogue.elements.find(code);
   std::string known;
   for (const Formulation& formulation : entry.formulations) {
@@ -47,7 +57,7 @@ Kind element_kind(const Body& body) {
 
 // The law that the columns of a material row tell, and its parameters.
 std::string law_of(const CardView& row, std::vector<NewField>& values) {
-  if (!row.blank("permeability_x")) {
+  if (!row.blank("permeability_x") && row.blank("youngs_modulus")) {
     values = {take(row, "permeability_x", "values"), take(row, "permeability_y", "values")};
     return "darcy";
   }
@@ -78,6 +88,23 @@ void add_materials(const Body& body, CardWriter& out) {
     if (!row.blank("k0")) fields.push_back(take(row, "k0"));
     const int card = out.add("material", row.where(), fields);
     out.add("parameters", row.where(), values, card);
+  }
+}
+
+// Water in the pores of consolidating soil, by mobilities: the unit weight of water is 1.
+void add_pore_flow(const Body& body, CardWriter& out) {
+  if (!body.consolidates()) return;
+  out.add("units", body.card.where(), {{"water_unit_weight", 1.0}});
+  const std::vector<CardView> rows = body.deck.all("material_values");
+  int number = static_cast<int>(rows.size());
+  for (const CardView& row : rows) {
+    const int card = out.add("material", row.where("permeability_x"),
+                             {{"number", static_cast<double>(++number)},
+                              {"law", static_cast<double>(law_code(body.catalogue, "pore_flow"))},
+                              {"unit_weight", 0.0},
+                              {"name", 0.0, {}, "pore water"}});
+    out.add("parameters", row.where("permeability_x"),
+            {take(row, "permeability_x", "values"), take(row, "permeability_y", "values")}, card);
   }
 }
 
@@ -131,6 +158,11 @@ bool Body::flows() const {
   return deck.has("heads");
 }
 
+bool Body::consolidates() const {
+  const CardView row = deck.one("material_values");
+  return !row.blank("permeability_x") && !row.blank("youngs_modulus");
+}
+
 std::vector<int> element_materials(const Body& body) {
   std::vector<int> of_element(body.elements.size(), 1);
   if (!body.deck.has("element_materials")) return of_element;
@@ -160,6 +192,8 @@ void add_body(const Body& body, const std::vector<int>& material, const std::str
     out.add("node", node.where,
             {{"number", static_cast<double>(node.number)}, {"x", node.x.x()}, {"y", node.x.y()}});
   add_materials(body, out);
+  add_pore_flow(body, out);
+  const double soils = body.consolidates() ? static_cast<double>(body.deck.all("material_values").size()) : 0.0;
   const Kind kind = element_kind(body);
   for (int m : std::set<int>(material.begin(), material.end()))
     out.add("group", body.card.where(),
@@ -167,6 +201,7 @@ void add_body(const Body& body, const std::vector<int>& material, const std::str
              {"element", static_cast<double>(kind.element)},
              {"formulation", static_cast<double>(kind.formulation)},
              {"material", static_cast<double>(m)},
+             {"second_material", soils > 0.0 ? soils + m : 0.0},
              {"name", 0.0, {}, "material " + std::to_string(m)}});
   for (std::size_t e = 0; e < body.elements.size(); ++e) {
     std::vector<NewField> fields{{"number", static_cast<double>(e) + 1.0},

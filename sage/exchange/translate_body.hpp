@@ -30,7 +30,8 @@ struct Body {
   std::vector<BodyNode> nodes = {};
   std::vector<BodyElement> elements = {};  // number 1, 2, ...
 
-  bool flows() const;  // water flows through it: heads are held, not displacements
+  bool flows() const;         // water flows through it: heads are held, not displacements
+  bool consolidates() const;  // and displaces it
 };
 
 [[noreturn]] void refuse(const Body& body, const CardView& card, std::string_view field,

@@ -1,7 +1,9 @@
 // Decks whose mesh is a rectangle numbered by rule (Smith and Griffiths): nodes, elements, supports, and the
 // stages of two programs that go ways of their own.
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <set>
 
 #include "sage/exchange/rectangle.hpp"
 #include "sage/exchange/translate_body.hpp"
@@ -41,7 +43,7 @@ void read_mesh(Source& s) {
     refuse(s, card, "columns", "the mesh needs columns and rows of 1 or more, at most 5000000 cells");
   s.mesh.triangles = card.integer("shape", 2) == 1;
   s.mesh.nodes_per_element = card.integer("nodes_per_element", s.flows() ? 4 : 8);
-  s.mesh.along_x = card.integer("direction", 2) == 1;
+  s.mesh.along_x = card.integer("direction", s.consolidates() ? 1 : 2) == 1;
   s.axisymmetric = card.integer("geometry", s.deck.one("material_values").blank("consolidation") ? 1 : 2) == 2;
   if (s.mesh.intervals() == 0)
     refuse(s, card, "nodes_per_element",
@@ -75,9 +77,29 @@ std::vector<int> materials_by_place(const Source& s) {
   return of_element;
 }
 
+// Only corners have a pressure; codes of other nodes mean nothing.
+void add_fixities_with_pressures(const Source& s, CardWriter& out) {
+  std::set<int> corners;
+  for (int j = 0; j <= s.mesh.rows(); ++j)
+    for (int i = 0; i <= s.mesh.columns(); ++i)
+      corners.insert(s.mesh.number(i * s.mesh.intervals(), j * s.mesh.intervals()));
+  for (const CardView& card : s.deck.all("fixity")) {
+    out.add("fixity", card.where(), {take(card, "first"), take(card, "x_code"), take(card, "y_code")});
+    if (card.integer("pressure_code") == 1 && corners.contains(card.integer("first")))
+      out.add("fixity", card.where(),
+              {take(card, "first"),
+               take(card, "pressure_code", "x_code"),
+               {"y_code", 0.0},
+               {"unknown", 0.0, {}, "excess_pressure"}});
+  }
+}
+
 // Programs without restraint cards hold both sides against x and the bottom altogether.
 void add_fixities(const Source& s, CardWriter& out) {
-  if (s.deck.has("restraints")) return out.copy("fixity");
+  if (s.deck.has("restraints")) {
+    if (s.consolidates()) return add_fixities_with_pressures(s, out);
+    return out.copy("fixity");
+  }
   const int k = s.mesh.intervals(), right = k * s.mesh.columns(), bottom = k * s.mesh.rows();
   for (int j = 0; j <= bottom; ++j)
     for (int i = 0; i <= right; ++i) {
@@ -194,6 +216,74 @@ void add_flow(const Source& s, CardWriter& out) {
             {take(card, "first"), take(card, "inflow", "x_force", circle), {"y_force", 0.0}, head}, stage);
 }
 
+// Stages between the points of the load function, in steps of one length.
+class LoadFunction {
+ public:
+  LoadFunction(const Source& s, CardWriter& out) : s_(s), out_(out), times_(s.deck.one("times")) {}
+
+  void add() {
+    const double dt = times_.real("time_step"), end = dt * times_.integer("steps");
+    if (!(dt > 0.0 && end > 0.0)) refuse(s_, times_, "time_step", "steps and their length must be above 0");
+    double time = 0.0, factor = 0.0;
+    for (const CardView& point : s_.deck.all("load_time")) {
+      const double to = std::min(point.real("time"), end);
+      if (!(to >= time)) refuse(s_, point, "time", "the times of the load function must rise");
+      const double share = point.real("time") > time ? (to - time) / (point.real("time") - time) : 1.0;
+      const double reached = factor + share * (point.real("factor") - factor);
+      if (to == time && reached != factor) refuse(s_, point, "time", "the load function must not jump");
+      add_part(point, steps_in(point, to - time), reached - factor);
+      time = to;
+      factor = reached;
+    }
+    add_part(times_, steps_in(times_, end - time), 0.0);
+  }
+
+ private:
+  int steps_in(const CardView& card, double duration) const {
+    const double steps = duration / times_.real("time_step");
+    if (std::abs(steps - std::round(steps)) > 1e-6 * std::max(1.0, steps))
+      refuse(s_, card, card.spec().name == "times" ? "time_step" : "time",
+             "the points of the load function must stand at the ends of steps");
+    return static_cast<int>(std::round(steps));
+  }
+  void add_part(const CardView& card, int steps, double factor) {
+    if (steps == 0) return;
+    out_.add("stage_title", card.where(), {{"title", 0.0, {}, factor != 0.0 ? "loading" : "consolidation"}});
+    const int stage = out_.add("stage", card.where(),
+                               {{"increments", static_cast<double>(steps)},
+                                {"output_every", static_cast<double>(times_.integer("print_every"))},
+                                {"duration", steps * times_.real("time_step")},
+                                {"pore_water", 2.0},
+                                {"theta", times_.real("theta")}});
+    if (factor == 0.0) return;
+    for (const CardView& load : s_.deck.all("load"))
+      out_.add("load", load.where(),
+               {take(load, "first"), take(load, "x_force", {}, factor), take(load, "y_force", {}, factor)},
+               stage);
+  }
+
+  const Source& s_;
+  CardWriter& out_;
+  CardView times_;
+};
+
+// Programs 9.4 and 9.6: loads that follow a function of time.
+void add_consolidation(const Source& s, CardWriter& out) {
+  if (s.deck.has("cell")) {
+    const double cell = -s.deck.one("cell").real("stress");
+    const int stage = add_stage(s, out, "cell pressure", 1);
+    for (std::size_t group = 1; group <= s.deck.all("material_values").size(); ++group)
+      out.add("initial", s.card.where(),
+              {{"group", static_cast<double>(group)}, {"kind", 0.0}, {"v1", cell}, {"v2", cell}, {"v3", cell}},
+              stage);
+    add_pressure(s, out, true, cell, stage);
+    add_pressure(s, out, false, cell, stage);
+  }
+  LoadFunction(s, out).add();
+  if (const int node = s.deck.one("times").integer("print_node"); node > 0)
+    add_report(s, out, {{"kind", 2.0}, {"stage", 1.0}}, {node});
+}
+
 }  // namespace
 
 Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue) {
@@ -211,6 +301,10 @@ Deck rectangle_deck(const Deck& deck, const Catalogue& catalogue) {
     return out.take();
   }
   add_fixities(s, out);
+  if (s.consolidates()) {
+    add_consolidation(s, out);
+    return out.take();
+  }
   if (!s.card.blank("footing"))
     add_footing(s, out);
   else if (!deck.one("material_values").blank("consolidation"))
