@@ -1,0 +1,627 @@
+// Coupled deformation and flow against closed forms and exact discrete solutions.  docs/theory/consolidation.md
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "sage/analysis/observer.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/model/dof_map.hpp"
+#include "sage/model/fingerprint.hpp"
+#include "tests/studies/scenes/consolidation.hpp"
+#include "tests/studies/workbench.hpp"
+
+namespace sage {
+namespace {
+
+using namespace scenes;
+
+const Workbench& bench() {
+  static const Workbench bench = app::make_workbench();
+  return bench;
+}
+
+WholeRun run(const ModelInput& input, const RunSettings& settings = {}) {
+  WholeRun done = bench().run(build_model(input, bench().catalogue()), settings);
+  EXPECT_TRUE(done.completed()) << done.failure;
+  return done;
+}
+
+double pressure(const WholeRun& run, const Snapshot& at, int number) {
+  return at.u[DofMap(*run.model).of(run.index(number), 1)];
+}
+double pressure(const WholeRun& run, int number) {
+  return pressure(run, run.last(), number);
+}
+
+// A column of height 1 and width 1, E' = 1, nu' = 0, k / gamma_w = 1: c = 1.  Loaded by 1 at its top.
+struct Column {
+  PoreMesh mesh;
+  ModelInput input;
+
+  explicit Column(std::vector<double> y, const std::string& element = "quad8p4", double nu = 0.0,
+                  int columns = 1, Geometry geometry = Geometry::plane_strain)
+      : mesh{.x = graded(0.0, 1.0, columns), .y = std::move(y), .element = element},
+        input(pore_input(mesh, 1.0, nu, 1.0, geometry)) {
+    input.supports = {held(mesh.column(0), true, false), held(mesh.column(2 * columns), true, false),
+                      held(mesh.row(0), true, true), drained(mesh.corner_row(top()))};
+  }
+  int top() const { return 2 * mesh.rows(); }
+  void load(StageInput stage) {
+    stage.pressures = {
+        {.elements = mesh.upper_elements(), .edge = mesh.upper_edge(), .normal1 = 1.0, .normal2 = 1.0}};
+    input.stages.push_back(stage);
+  }
+};
+
+// Terzaghi (1925): excess pressure at a depth z below the drained top of a layer of height 1, and the degree of
+// consolidation, at T = c t.
+double terzaghi_pressure(double z, double T) {
+  double sum = 0.0;
+  for (int m = 0; m < 200; ++m) {
+    const double M = std::numbers::pi * (m + 0.5);
+    sum += 2.0 / M * std::sin(M * z) * std::exp(-M * M * T);
+  }
+  return sum;
+}
+double terzaghi_degree(double T) {
+  double sum = 0.0;
+  for (int m = 0; m < 200; ++m) {
+    const double M = std::numbers::pi * (m + 0.5);
+    sum += 2.0 / (M * M) * std::exp(-M * M * T);
+  }
+  return 1.0 - sum;
+}
+
+// A shut-in column carries a load by its water alone, in one step, without any settlement.
+TEST(Consolidation, AShutInColumnCarriesItsLoadByWater) {
+  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+    for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+      SCOPED_TRACE(element);
+      Column column(graded(0.0, 1.0, 4), element, 0.2, 2, geometry);
+      column.load(shut_in());
+      const WholeRun done = run(column.input);
+      for (int j = 0; j <= column.top(); j += 2)
+        for (int i = 0; i <= 4; i += 2) EXPECT_NEAR(pressure(done, column.mesh.node(i, j)), 1.0, 1e-10);
+      EXPECT_LT(done.last().u.head(DofMap(*done.model).displacements()).cwiseAbs().maxCoeff(), 1e-10);
+    }
+}
+
+// Short steps of backward Euler, then Crank-Nicolson, both growing: 3 n steps to a time.
+void march(ModelInput& input, double time, int n) {
+  input.stages.push_back(consolidation(0.01 * time, n, std::pow(50.0, 1.0 / n)));
+  input.stages.push_back(consolidation(0.99 * time, 2 * n, std::pow(100.0, 1.0 / (2 * n)), 0.5));
+}
+
+// One way: halving mesh and steps gives the second order.
+TEST(Consolidation, ColumnsFollowTerzaghi) {
+  double error = 0.0;
+  for (const int n : {8, 16, 32}) {
+    Column column(graded(0.0, 1.0, n, std::pow(20.0, -1.0 / n)));
+    column.load(shut_in());
+    march(column.input, 0.1, n);
+    const WholeRun done = run(column.input);
+    const int node = column.mesh.node(0, n);
+    const double exact = terzaghi_pressure(1.0 - done.position(node).y(), 0.1);
+    const double s = -done.u(column.mesh.node(0, 2 * n)).y();
+    error = std::max(std::abs(pressure(done, node) - exact), std::abs(s - terzaghi_degree(0.1)));
+    std::printf("terzaghi %d %.2e %.2e\n", n, pressure(done, node) - exact, s - terzaghi_degree(0.1));
+  }
+  EXPECT_LT(error, 1e-5);
+}
+
+// The first step below h^2 / (6 c): exact values of the discrete equations (backward Euler, ten elements).
+TEST(Consolidation, TheFirstStepOscillatesAsTheDiscreteEquationsDo) {
+  Column column(graded(0.0, 1.0, 10));
+  column.load(shut_in());
+  column.input.stages.push_back(consolidation(0.01 / 60.0, 1));
+  const WholeRun done = run(column.input);
+  const double exact[] = {1.2251482266, 0.9493082761, 1.0114131518};
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(pressure(done, column.mesh.node(0, column.top() - 2 * (k + 1))), exact[k], 1e-9) << k;
+}
+
+// A layer of water that cannot leave through its base as p94 has it is one half of a layer with two drains.
+TEST(Consolidation, TwoDrainsAreOneOfHalfTheHeight) {
+  const auto middle = [](bool two) {
+    Column column(graded(0.0, 1.0, two ? 8 : 4));
+    if (two) {
+      column.input.supports.push_back(drained(column.mesh.corner_row(0)));
+    } else {
+      for (Vector2& x : column.input.nodes) x.y() *= 0.5;
+    }
+    column.load(shut_in());
+    column.input.stages.push_back(consolidation(0.025, 5));
+    const WholeRun done = run(column.input);
+    return pressure(done, column.mesh.node(0, two ? 8 : 0));
+  };
+  EXPECT_NEAR(middle(true), middle(false), 1e-12);
+}
+
+// ---- balances and limits ----
+
+// A strip load on a block that drains through its top, with compressible water or not.
+struct Block2d {
+  PoreMesh mesh;
+  ModelInput input;
+
+  explicit Block2d(const std::string& element, Geometry geometry = Geometry::plane_strain, double bulk = 0.0)
+      : mesh{.x = graded(0.0, 2.0, 4, 1.2), .y = graded(0.0, 2.0, 4, 0.8), .element = element},
+        input(pore_input(mesh, 10.0, 0.25, 0.3, geometry)) {
+    if (bulk > 0.0) input.materials[1].parameters["water_bulk"] = bulk;
+    input.supports = {held(mesh.column(0), true, false), held(mesh.column(8), true, false),
+                      held(mesh.row(0), true, true), drained(mesh.corner_row(8))};
+  }
+  void load(StageInput stage) {
+    std::vector<int> under = mesh.upper_elements();
+    under.resize(2);
+    stage.pressures = {{.elements = under, .edge = mesh.upper_edge(), .normal1 = 1.0, .normal2 = 1.0}};
+    input.stages.push_back(stage);
+  }
+};
+
+// Sum over nodes of what has left, and the water in all elements.
+struct Volumes {
+  double left = 0.0, content = 0.0, moved = 0.0;
+};
+struct VolumeObserver final : Observer {
+  std::vector<Volumes> steps;
+  void on_increment(const Model& model, const StepReport&, const Solution& now) override {
+    Volumes sums;
+    const DofMap map(model);
+    for (int dof = map.displacements(); dof < map.dofs(); ++dof) {
+      sums.left += (*now.internal)[dof];
+      sums.moved += std::abs((*now.internal)[dof]);
+    }
+    std::vector<double> geometry;
+    Eigen::Matrix2Xd x;
+    for (const GroupData& data : now.groups()) {
+      const ElementTraits& traits = data.group->element->traits();
+      geometry.resize(static_cast<std::size_t>(traits.geometry_size()));
+      const auto history = static_cast<std::size_t>(data.state.history_size());
+      for (int e = 0; e < data.group->elements(); ++e) {
+        element_coordinates(model.mesh, *data.group, e, x);
+        data.group->element->geometry(x, geometry);
+        for (int p = 0; p < traits.points; ++p)
+          sums.content +=
+              geometry[static_cast<std::size_t>(p * (1 + 4 * traits.dofs))] *
+              data.state.committed.h[static_cast<std::size_t>(e * traits.points + p + 1) * history - 3];
+      }
+    }
+    steps.push_back(sums);
+  }
+};
+
+TEST(Consolidation, WaterIsBalancedInEveryStep) {
+  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+    for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
+      for (const double bulk : {0.0, 50.0}) {
+        SCOPED_TRACE(element);
+        Block2d block(element, geometry, bulk);
+        block.load(consolidation(1.0, 4));
+        block.input.stages.push_back(consolidation(5.0, 6, 1.5, 0.5));
+        VolumeObserver volumes;
+        Observer* observers[] = {&volumes};
+        const Model model = build_model(block.input, bench().catalogue());
+        ASSERT_EQ(bench().run(model, observers).status, RunStatus::completed);
+        ASSERT_EQ(volumes.steps.size(), 10u);
+        for (const Volumes& step : volumes.steps) {
+          EXPECT_GT(step.left, 1e-4);
+          EXPECT_LE(std::abs(step.left + step.content), 1e-10 * step.moved);
+        }
+      }
+}
+
+// Behind a long time nothing is left of the water: displacements are those of the skeleton alone.
+TEST(Consolidation, ALongTimeEndsInTheDrainedState) {
+  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"}) {
+    SCOPED_TRACE(element);
+    Block2d block(element);
+    block.load(shut_in());
+    block.input.stages.push_back(consolidation(1e6, 12, 10.0));
+    const WholeRun wet = run(block.input);
+    Block2d dry(element);
+    dry.load({.title = "drained"});
+    const WholeRun drained_run = run(dry.input);
+    const int n = DofMap(*wet.model).displacements();
+    const Eigen::VectorXd difference = wet.last().u.head(n) - drained_run.last().u.head(n);
+    EXPECT_LT(difference.norm(), 1e-9 * drained_run.last().u.head(n).norm());
+    // Solids of the same shape, without any water.
+    ModelInput plain = dry.input;
+    plain.supports.pop_back();
+    plain.groups[0].element = std::string(element).substr(0, std::string(element).find('p'));
+    plain.groups[0].second_material = 0;
+    const WholeRun solid = run(plain);
+    EXPECT_LT((solid.last().u.head(n) - wet.last().u.head(n)).norm(), 1e-9 * solid.last().u.norm());
+  }
+}
+
+// In no time a step of consolidation is the undrained stage of the same elements where no node is drained.
+TEST(Consolidation, NoTimeIsTheUndrainedState) {
+  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+    for (const double bulk : {0.0, 50.0}) {
+      SCOPED_TRACE(element);
+      const auto with = [&](const StageInput& stage) {
+        Block2d block(element, Geometry::plane_strain, bulk);
+        block.input.supports.pop_back();
+        block.load(stage);
+        return run(block.input);
+      };
+      const WholeRun none = with(shut_in()), little = with(consolidation(1e-12, 1));
+      EXPECT_LT((none.last().u - little.last().u).norm(), 1e-9 * none.last().u.norm());
+      EXPECT_GT(none.last().u.norm(), 0.1);
+    }
+}
+
+// Permeability over twelve decades at the same k dt: the same answer, without a lost digit.
+TEST(Consolidation, PermeabilityAndTimeScaleWithoutLoss) {
+  const auto settled = [](double k) {
+    Block2d block("quad8p4");
+    block.input.materials[1].parameters["permeability"] = 0.3 * k;
+    block.load(shut_in());
+    block.input.stages.push_back(consolidation(2.0 / k, 4));
+    return run(block.input).last().u;
+  };
+  const Eigen::VectorXd one = settled(1.0);
+  for (const double k : {1e-12, 1e-6, 1e6}) EXPECT_LT((settled(k) - one).norm(), 1e-11 * one.norm()) << k;
+}
+
+// The unit of stress: kPa, MPa and psi-like sizes.
+TEST(Consolidation, UnitsOfStressScaleWithoutLoss) {
+  const auto settled = [](double unit) {
+    Block2d block("quad8p4");
+    block.input.materials[0].parameters["youngs_modulus"] = 10.0 * unit;
+    block.input.materials[1].parameters["permeability"] = 0.3 / unit;
+    block.load(shut_in());
+    for (PressureInput& p : block.input.stages[0].pressures) p.normal1 = p.normal2 = unit;
+    block.input.stages.push_back(consolidation(2.0, 4));
+    const WholeRun done = run(block.input);
+    return Eigen::VectorXd(done.last().u.head(DofMap(*done.model).displacements()));
+  };
+  const Eigen::VectorXd one = settled(1.0);
+  for (const double unit : {1e-9, 1e-3, 1e9})
+    EXPECT_LT((settled(unit) - one).norm(), 1e-11 * one.norm()) << unit;
+}
+
+// ---- stages behind one another ----
+
+// Stages without load or time change nothing, in any order.
+TEST(Consolidation, EmptyStagesChangeNothing) {
+  Block2d block("quad8p4");
+  block.load(shut_in());
+  block.input.stages.push_back(consolidation(0.5, 3));
+  const WholeRun before = run(block.input);
+  const Eigen::VectorXd u = before.last().u;
+  const int free = block.mesh.node(4, 0);
+  for (const bool kept_first : {true, false}) {
+    ModelInput input = block.input;
+    StageInput kept{.title = "kept"};
+    input.stages.push_back(kept_first ? kept : shut_in());
+    input.stages.push_back(kept_first ? shut_in() : kept);
+    const WholeRun done = run(input);
+    // Shut in, drained nodes are free; their pressures stay too, since nothing moves.
+    EXPECT_LT((done.last().u - u).norm(), 1e-10 * u.norm());
+    // And consolidation goes on as if they had not been there.
+    input.stages.push_back(consolidation(0.5, 3));
+    ModelInput straight = block.input;
+    straight.stages.push_back(consolidation(0.5, 3));
+    const WholeRun after = run(input), without = run(straight);
+    EXPECT_LT((after.last().u - without.last().u).norm(), 1e-10 * u.norm());
+    EXPECT_GT(std::abs(pressure(after, free) - pressure(before, free)), 1e-3);
+  }
+}
+
+// A drained load while pressures are kept: what it squeezes out is no load of the next stage.
+TEST(Consolidation, WaterOfDrainedStagesDoesNotComeBack) {
+  Block2d block("quad8p4");
+  block.load({.title = "drained"});
+  block.input.stages.push_back(consolidation(1.0, 3));
+  const WholeRun done = run(block.input);
+  const Eigen::VectorXd& first = done.increments.front().u;
+  EXPECT_LT((done.last().u - first).norm(), 1e-10 * first.norm());
+}
+
+// The pressure of a drain follows its card: steady flow at the end, exactly linear along a column.
+TEST(Consolidation, AHeldPressureIsReached) {
+  Column column(graded(0.0, 1.0, 4));
+  StageInput rise = consolidation(1.0, 4);
+  rise.supports = {drained(column.mesh.corner_row(0), 2.0)};
+  column.input.stages.push_back(rise);
+  column.input.stages.push_back(consolidation(1e4, 8, 10.0));
+  const WholeRun done = run(column.input);
+  EXPECT_NEAR(pressure(done, done.increments[1], column.mesh.node(0, 0)), 1.0, 1e-12);
+  for (int j = 0; j <= 8; j += 2) EXPECT_NEAR(pressure(done, column.mesh.node(0, j)), 2.0 - 0.25 * j, 1e-9);
+}
+
+// ---- cards ----
+
+// The wide layout has all that the model says.
+TEST(Consolidation, ADeckSaysWhatTheModelSays) {
+  Block2d block("quad8p4");
+  block.load(shut_in());
+  block.input.stages.push_back(consolidation(2.5, 4, 1.5, 0.75));
+  const Model model = build_model(block.input, bench().catalogue());
+  Diagnostics notes;
+  const std::string text = sage1_text(model, notes);
+  EXPECT_EQ(notes.warnings(), 0);
+  const Model again =
+      build_model(read_deck_text(text, "written", load_layout("sage1_wide")), bench().catalogue());
+  EXPECT_EQ(fingerprint(model), fingerprint(again));
+  EXPECT_EQ(again.stages[1].pores, PoreWater::flows);
+  EXPECT_EQ(again.stages[1].theta, 0.75);
+  EXPECT_EQ(again.stages[1].grading, 1.5);
+}
+
+std::string refusal(const ModelInput& input) {
+  try {
+    build_model(input, bench().catalogue());
+  } catch (const InputError& error) {
+    std::string all;
+    for (const Diagnostic& d : error.diagnostics().list()) all += to_string(d) + "\n";
+    return all;
+  }
+  return "taken";
+}
+
+TEST(Consolidation, BadInputIsRefusedByName) {
+  const auto with = [](const auto& change) {
+    Block2d block("quad8p4");
+    block.load(consolidation(1.0, 2));
+    change(block.input);
+    return refusal(block.input);
+  };
+  EXPECT_EQ(with([](ModelInput&) {}), "taken");
+  EXPECT_NE(with([](ModelInput& i) { i.stages[0].theta = 0.4; }).find("S362"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.stages[0].grading = -2.0; }).find("S362"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.stages[0].theta = std::nan(""); }).find("theta"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 0; }).find("pore_flow"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 1; }).find("pore_flow"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 9; }).find("S225"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.groups[0].material = 2; }).find("S225"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.units.water_unit_weight = 0.0; }).find("water"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.materials[1].parameters["permeability"] = 0.0; }).find("permeability"),
+            std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) {
+              i.materials[1] = {"darcy", {{"permeability", 1.0}}};
+            }).find("pore_flow"),
+            std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) {
+              i.groups[0].element = "quad8";
+              i.groups[0].second_material = 0;
+              i.supports.pop_back();
+            }).find("S361"),
+            std::string::npos);
+}
+
+TEST(Consolidation, AShortFirstStepIsNamed) {
+  const auto first = [](double dt) {
+    Column column(graded(0.0, 1.0, 10));
+    column.load(shut_in());
+    column.input.stages.push_back(consolidation(dt, 1));
+    return run(column.input);
+  };
+  const WholeRun little = first(0.9 * 0.01 / 6.0), tiny = first(0.1 * 0.01 / 6.0),
+                 enough = first(1.01 * 0.01 / 6.0);
+  EXPECT_TRUE(little.warns("element(s) 10 beside drained nodes"));
+  EXPECT_TRUE(tiny.warns("oscillate from corner to corner"));
+  EXPECT_FALSE(enough.warns("oscillate"));
+}
+
+// A part whose whole boundary is held, of water that cannot be compressed: the level of its pressure is open.
+TEST(Consolidation, AnOpenLevelIsNamed) {
+  Column column(graded(0.0, 1.0, 2));
+  column.input.supports.pop_back();
+  column.input.supports.push_back(held(column.mesh.row(4), true, true));
+  column.input.stages = {consolidation(1.0, 1)};
+  column.input.stages[0].loads = {{.nodes = {column.mesh.node(0, 2)}, .x = 0.1, .unknown = "excess_pressure"}};
+  const WholeRun done = bench().run(build_model(column.input, bench().catalogue()));
+  EXPECT_EQ(done.result.status, RunStatus::singular);
+  EXPECT_NE(done.result.reason.find("excess_pressure"), std::string::npos) << done.result.reason;
+}
+
+// ---- work ----
+
+TEST(Consolidation, OneFactorisationServesEqualSteps) {
+  Block2d block("quad8p4");
+  block.load(shut_in());
+  block.input.stages.push_back(consolidation(1.0, 20));
+  const WholeRun done = run(block.input);
+  EXPECT_EQ(done.result.work.factorisations, 2);  // undrained, and the step
+  EXPECT_LE(done.result.work.solves, 24);
+}
+
+TEST(Consolidation, RestartsToTheLastBit) {
+  Block2d block("tri6p3");
+  block.load(shut_in());
+  block.input.stages.push_back(consolidation(1.0, 3, 1.5, 0.7));
+  block.input.stages.push_back({.title = "kept"});
+  block.input.stages.push_back(consolidation(1.0, 2));
+  std::vector<std::string> checkpoints;
+  RunSettings settings;
+  settings.checkpoint_due = [] { return true; };
+  settings.save_checkpoint = [&](const std::string& bytes) { checkpoints.push_back(bytes); };
+  const WholeRun whole = run(block.input, settings);
+  ASSERT_GE(checkpoints.size(), 6u);
+  for (const std::string& bytes : checkpoints) {
+    RunSettings again;
+    again.resume_from = bytes;
+    const WholeRun rest = run(block.input, again);
+    if (!rest.increments.empty()) {
+      EXPECT_EQ(rest.last().u, whole.last().u);
+    }
+  }
+}
+
+TEST(Consolidation, SolversAgree) {
+  for (const double duration : {1e-10, 1.0}) {
+    Block2d block("quad8p4");
+    block.load(shut_in());
+    block.input.stages.push_back(consolidation(duration, 2));
+    const Eigen::VectorXd u = run(block.input).last().u;
+    for (const int code : {1, 2, 5, 8}) {
+      RunSettings settings;
+      settings.solver = code;
+      EXPECT_LT((run(block.input, settings).last().u - u).norm(), 1e-11 * u.norm()) << code;
+    }
+  }
+}
+
+// ---- closed forms in two dimensions ----
+
+// A cylinder (de Leeuw 1965) under a sudden pressure, drained outside: the pressure on its axis rises first.
+TEST(Consolidation, CylindersFollowDeLeeuw) {
+  const auto axis = [](int n, double T) {
+    PoreMesh mesh{.x = graded(0.0, 1.0, n, 0.9), .y = {0.0, 0.2}};
+    ModelInput input = pore_input(mesh, 1.0, 0.3, 1.0, Geometry::axisymmetric);
+    const double c = (1.0 - 0.3) / (1.3 * 0.4);
+    input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), false, true),
+                      held(mesh.row(2), false, true), held(mesh.row(1), false, true),
+                      drained(mesh.corner_column(2 * n))};
+    StageInput press = shut_in();
+    press.pressures = {{.elements = mesh.right_elements(), .edge = 2, .normal1 = 1.0, .normal2 = 1.0}};
+    input.stages = {press};
+    march(input, T / c, n);
+    const WholeRun done = run(input);
+    return pressure(done, mesh.node(0, 0));
+  };
+  for (const int n : {8, 16, 32})
+    std::printf("de Leeuw %d: %.7f %.7f %.7f\n", n, axis(n, 0.01), axis(n, 0.1), axis(n, 0.5));
+}
+
+// A sphere (Cryer 1963): triangles on a quarter of its section.
+TEST(Consolidation, SpheresFollowCryer) {
+  const auto centre = [](int n, double T) {
+    PoreMesh mesh{.x = graded(0.0, 1.0, n, 0.85),
+                  .y = graded(0.0, 1.0, n, 0.85),
+                  .element = "tri6p3",
+                  .formulation = "six points"};
+    mesh.place = [](double a, double b) {
+      return Vector2(a * std::sqrt(1.0 - 0.5 * b * b), b * std::sqrt(1.0 - 0.5 * a * a));
+    };
+    ModelInput input = pore_input(mesh, 1.0, 0.25, 1.0, Geometry::axisymmetric);
+    const double c = (1.0 - 0.25) / (1.25 * 0.5);
+    input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), false, true),
+                      drained(mesh.corner_column(2 * n)), drained(mesh.corner_row(2 * n))};
+    StageInput press = shut_in();
+    press.pressures = {{.elements = mesh.right_elements(), .edge = 2, .normal1 = 1.0, .normal2 = 1.0},
+                       {.elements = mesh.upper_elements(), .edge = 2, .normal1 = 1.0, .normal2 = 1.0}};
+    input.stages = {press};
+    march(input, T / c, 2 * n);
+    const WholeRun done = run(input);
+    return pressure(done, mesh.node(0, 0));
+  };
+  for (const int n : {6, 12}) std::printf("Cryer %d: %.7f %.7f\n", n, centre(n, 0.05), centre(n, 0.5));
+}
+
+// A strip of half-width 1 on a layer of width and depth 5: rollers at the sides, rough base, drained top, nu' = 0.
+TEST(Consolidation, StripsOnALayer) {
+  const auto strip = [](int n) {
+    std::vector<double> x = graded(0.0, 1.0, n, 0.75), rest = graded(1.0, 5.0, n + n / 2, 1.0 / 0.85);
+    x.insert(x.end(), rest.begin() + 1, rest.end());
+    std::vector<double> y = graded(0.0, 4.0, n, 0.8), top = graded(4.0, 5.0, n, 0.7);
+    y.insert(y.end(), top.begin() + 1, top.end());
+    PoreMesh mesh{.x = x, .y = y};
+    ModelInput input = pore_input(mesh, 1.0, 0.0, 1.0);
+    const int right = 2 * mesh.columns(), up = 2 * mesh.rows();
+    input.supports = {held(mesh.column(0), true, false), held(mesh.column(right), true, false),
+                      held(mesh.row(0), true, true), drained(mesh.corner_row(up))};
+    StageInput press = shut_in();
+    std::vector<int> under = mesh.upper_elements();
+    under.resize(static_cast<std::size_t>(n));
+    press.pressures = {{.elements = under, .edge = 3, .normal1 = 1.0, .normal2 = 1.0}};
+    input.stages = {press};
+    march(input, 0.1, 2 * n);
+    const WholeRun done = run(input);
+    std::printf("strip %d: w %.7f %.7f p %.7f %.7f\n", n, -done.u(mesh.node(0, up)).y(),
+                -done.u(mesh.node(2 * n, up)).y(), pressure(done, mesh.node(0, 2 * n)),
+                pressure(done, mesh.node(0, 0)));
+  };
+  for (const int n : {6, 12}) strip(n);
+}
+
+// A specimen of height and diameter 2 between rough platens, closed: behind a long time its water has one pressure.
+TEST(Consolidation, ClosedSpecimensEvenOut) {
+  const auto ratio = [](int n, const char* element) {
+    const double shrink = std::pow(100.0, -1.0 / n);
+    PoreMesh mesh{.x = graded(0.0, 1.0, n, shrink), .y = graded(0.0, 1.0, n, shrink), .element = element};
+    ModelInput input = pore_input(mesh, 1.0, 0.2, 1.0, Geometry::axisymmetric);
+    const int top = 2 * n;
+    input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), false, true),
+                      held(mesh.row(top), true, false)};
+    StageInput down = shut_in();
+    down.supports = {{.nodes = mesh.row(top), .y = FixityCode::fixed, .y_value = -0.01}};
+    input.stages = {down, consolidation(1e6, 8, 10.0)};
+    const WholeRun done = run(input);
+    EXPECT_TRUE(done.warns("no water can leave"));
+    double force = 0.0;
+    for (const int node : mesh.row(top)) force -= done.reaction(node).y();
+    const double G = 1.0 / 2.4;
+    std::printf("specimen %s %d: %.7f p %.7f %.7f\n", element, n, force / (std::numbers::pi * 3.0 * G * 0.01),
+                pressure(done, mesh.node(0, 0)) / (G * 0.01), pressure(done, mesh.node(0, top)) / (G * 0.01));
+    return force / (std::numbers::pi * 3.0 * G * 0.01);
+  };
+  for (const int n : {8, 12}) ratio(n, "quad8p4");
+  ratio(8, "quad9p4");
+}
+
+// A sample between rigid smooth plates that are pressed together by a force (Mandel 1953): half-width 1, G = 1, half of
+// the force 1, nu' = 0.2.  The plates move as the closed form has it; pressure, width and force follow.
+class Mandel {
+ public:
+  explicit Mandel(double nu) : nu_(nu) {
+    const double ratio = (1.0 - nu) / (0.5 - nu);
+    for (int n = 0; n < 200; ++n) {
+      double low = (n + 1e-12) * std::numbers::pi, high = (n + 0.5) * std::numbers::pi - 1e-13;
+      for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (std::tan(middle) < ratio * middle ? low : high) = middle;
+      }
+      roots_.push_back(0.5 * (low + high));
+    }
+  }
+  double plate(double T) const {
+    double sum = 0.0;
+    for (const double a : roots_)
+      sum += std::sin(a) * std::cos(a) / (a - std::sin(a) * std::cos(a)) * std::exp(-a * a * T);
+    return -0.5 * (1.0 - nu_) + 0.5 * sum;
+  }
+
+ private:
+  double nu_;
+  std::vector<double> roots_;
+};
+
+TEST(Consolidation, PlatesFollowMandel) {
+  const Mandel exact(0.2);
+  EXPECT_NEAR(exact.plate(0.01), -0.260940287476, 1e-9);
+  EXPECT_NEAR(exact.plate(0.1), -0.287308031766, 1e-11);
+  for (const int n : {8, 16}) {
+    PoreMesh mesh{.x = graded(0.0, 1.0, n, 0.9), .y = {0.0, 0.1}};
+    ModelInput input = pore_input(mesh, 2.4, 0.2, 1.0);
+    const double c = 2.0 * 0.8 / 0.6;
+    input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), false, true),
+                      drained(mesh.corner_column(2 * n))};
+    const auto press = [&](StageInput stage, double by) {
+      stage.supports = {{.nodes = mesh.row(2), .y = FixityCode::fixed, .y_value = 0.1 * by}};
+      input.stages.push_back(stage);
+    };
+    press(shut_in(), -0.25);
+    std::vector<double> times = graded(0.0, 0.001, n, std::pow(50.0, 1.0 / n)),
+                        rest = graded(0.001, 0.1, 2 * n, std::pow(100.0, 0.5 / n));
+    times.insert(times.end(), rest.begin() + 1, rest.end());
+    for (std::size_t i = 1; i < times.size(); ++i)
+      press(consolidation((times[i] - times[i - 1]) / c, 1, 1.0, i <= static_cast<std::size_t>(n) ? 1.0 : 0.5),
+            exact.plate(times[i]) - (i > 1 ? exact.plate(times[i - 1]) : -0.25));
+    const WholeRun done = run(input);
+    double force = 0.0;
+    for (const int node : mesh.row(2)) force -= done.reaction(node).y();
+    const double p0 = 0.5;
+    std::printf("Mandel %d: p(0) %.8f p(a) %.8f u %.8f F %.8f\n", n, pressure(done, mesh.node(0, 0)) / p0,
+                pressure(done, mesh.node(n, 0)) / p0, done.u(mesh.node(2 * n, 0)).x(), force);
+  }
+}
+
+}  // namespace
+}  // namespace sage
