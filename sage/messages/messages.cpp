@@ -499,9 +499,9 @@ constexpr MessageEntry kMessages[] = {
      "side of it. Here two lines ask for it.",
      "Let one of the lines end where the other begins, or remove the beam or the interfaces of one."},
     {"S259", "this section needs Gmsh",
-     "Gmsh makes meshes of general areas and can't be loaded. Without it sagefe meshes areas of four sides "
-     "whose "
-     "opposite sides have as many pieces, and sections in which all lines are horizontal or vertical.",
+     "Gmsh makes meshes of general areas and can't be loaded. Without it the program meshes areas of four "
+     "sides whose opposite sides have as many pieces, and sections in which all lines are horizontal or "
+     "vertical.",
      "Install Gmsh's library (Debian: libgmsh4.8), name its file in SAGEFE_GMSH, or divide the area into "
      "blocks."},
     {"S260", "there is nothing to divide for a safety factor",
