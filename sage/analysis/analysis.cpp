@@ -209,7 +209,7 @@ void Analysis::Stages::end_increment(StepReport& report) {
     show_region_for(report);
   else
     recover_for(report);
-  if (system_.assembly().flows() && (report.increment == 1 || report.increment == report.increments))
+  if (water_flows(system_.assembly()) && (report.increment == 1 || report.increment == report.increments))
     run_.warn(oscillation_warnings(model_, run_.stage(), report.increment, system_.assembly(), state_.u));
   observer_list_.tell([&](Observer& o) { o.on_increment(model_, report, solution()); });
   shown_u_.resize(0);

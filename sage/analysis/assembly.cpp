@@ -95,7 +95,6 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     eases_ = eases_ || (data.wants_context && data.group->flow());
     wants_step_time_ = wants_step_time_ || data.wants_context || data.sees_spread ||
                        data.group->element->traits().sees_unknowns;
-    has_pores_ = has_pores_ || data.group->entry->has_pores();
     data.constant =
         scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
     list_dofs(data, dof_map_);
@@ -138,9 +137,17 @@ bool Assembly::sees_unknowns() const {
                              [](const GroupData& data) { return data.group->element->traits().sees_unknowns; });
 }
 
-bool Assembly::linear_in_step() const {
-  for (std::size_t g = 0; g < groups_.size(); ++g)
-    if (groups_[g].active && scene_->group_linear[g] == 0 && !has_matrix_of_step(groups_[g])) return false;
+bool water_flows(const Assembly& assembly) {
+  return assembly.step_time().flow_dt > 0.0 &&
+         std::ranges::any_of(assembly.groups(),
+                             [](const GroupData& data) { return data.group->entry->has_pores(); });
+}
+
+bool linear_in_step(const Assembly& assembly) {
+  for (std::size_t g = 0; g < assembly.groups().size(); ++g)
+    if (assembly.groups()[g].active && assembly.scene().group_linear[g] == 0 &&
+        !has_matrix_of_step(assembly.groups()[g]))
+      return false;
   return true;
 }
 

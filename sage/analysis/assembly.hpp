@@ -30,14 +30,9 @@ class Assembly {
   bool wants_step_time() const { return wants_step_time_; }
   // Water flows by a law that is eased (PointContext::easing).
   bool eases() const { return eases_; }
-  // K is symmetric in every state of the laws.
-  bool symmetric() const { return scene_->symmetric; }
+  const Scene& scene() const { return *scene_; }
   void set_step_time(const StepTime& step_time);
   const StepTime& step_time() const { return element_.step_time(); }
-  // Water flows in the step in hand: internal forces change with the time alone.
-  bool flows() const { return has_pores_ && step_time().flow_dt > 0.0; }
-  // K depends on nothing but the size of the step.
-  bool linear_in_step() const;
   // The loads along elements at the end of the stage in hand have changed: they grow there from what acts at this load
   // factor, below 1.
   void take_spread_loads(double load_factor);
@@ -169,7 +164,7 @@ class Assembly {
   std::unique_ptr<Condensation> condensation_;
   RegionStep region_step_ = RegionStep::open;
   Equations equations_;
-  bool wants_step_time_ = false, eases_ = false, has_pores_ = false;
+  bool wants_step_time_ = false, eases_ = false;
   int spread_stage_ = 0;  // that the groups have the loads along their elements of, from 1
   int elements_ = 0;      // of the system
   Eigen::VectorXd rate_, internal_;
@@ -177,6 +172,11 @@ class Assembly {
   Eigen::VectorXd motion_;          // work space
   FieldSums force_scale_{};
 };
+
+// Water flows in the step in hand: internal forces change with the time alone.
+bool water_flows(const Assembly& assembly);
+// K depends on nothing but the size of the step.
+bool linear_in_step(const Assembly& assembly);
 
 // One step of the stage and its iterations.  A condensed region acts by its interface dofs alone in it.
 class IteratedStep {

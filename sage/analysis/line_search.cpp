@@ -14,7 +14,7 @@ constexpr double kAccept = 0.8;  // of the slope at the start
 bool keeps_full_step(const StepIteration& step, double old_norm) {
   constexpr double kHalf = 0.5;
   if (std::abs(step.work_left()) <= kAccept * std::abs(step.slope)) return true;
-  return !step.assembly.symmetric() && step.residual_size() < kHalf * old_norm;
+  return !step.assembly.scene().symmetric && step.residual_size() < kHalf * old_norm;
 }
 
 // Joints that touch without pressure may be found open by one tangent and closed by the next, for good: late iterations
@@ -22,7 +22,7 @@ bool keeps_full_step(const StepIteration& step, double old_norm) {
 bool chatters(const StepIteration& step, int iteration, double old_norm) {
   constexpr int kLate = 10;
   constexpr double kThrown = 5.0;
-  if (iteration <= kLate || !step.settings.line_search || step.accelerated() || step.assembly.symmetric())
+  if (iteration <= kLate || !step.settings.line_search || step.accelerated() || step.assembly.scene().symmetric)
     return false;
   return step.residual_size() > kThrown * old_norm &&
          std::ranges::any_of(step.assembly.groups(),

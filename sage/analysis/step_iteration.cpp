@@ -82,9 +82,9 @@ bool StepIteration::predict(const Eigen::VectorXd& rate) {
 // Prescribed displacements enter through K(free, prescribed).
 bool StepIteration::start_from_committed() {
   du.setZero();
-  if (!start_known && assembly.flows()) {
+  if (!start_known && water_flows(assembly)) {
     // Time alone moves water.  Where K depends on nothing but the size of the step, the kept one may be that of another.
-    if (assemble(!tangent.current() || assembly.linear_in_step()) == Outcome::cut_step) return false;
+    if (assemble(!tangent.current() || linear_in_step(assembly)) == Outcome::cut_step) return false;
   }
   if (!tangent.current() && form_tangent() == Outcome::cut_step) return false;
   if (start_known) {

@@ -53,7 +53,7 @@ double StepMeasures::take_first(const Eigen::VectorXd& motion, const Eigen::Vect
 // What the first correction of a field makes in its own equations, where another field balances it.
 double StepMeasures::own_forces(const Eigen::VectorXd& motion, int field) const {
   if (fields_.count() == 1 || tangent_.norm1() < 0.0) return 0.0;
-  if (assembly_.flows() && assembly_.linear_in_step())
+  if (water_flows(assembly_) && linear_in_step(assembly_))
     return 0.0;  // no iteration runs away, and there are many steps
   return fields_.norm(tangent_.times(fields_.part(motion, field)), field);
 }

@@ -786,10 +786,10 @@ constexpr MessageEntry kMessages[] = {
      "between 0.01 and 100.",
      "Correct the field; blank is 1."},
     {"S363", "the first step of a consolidation stage is short",
-     "Where a pressure starts to fall at a drained node, a step below h^2 / (6 theta c) gives excess pressures "
-     "that "
-     "oscillate from node to node beside it, with quadratic elements of size h and a coefficient of "
-     "consolidation c. "
+     "A step below h^2 / (6 theta c) gives excess pressures that oscillate from node to node beside a drained "
+     "node "
+     "where a pressure starts to fall. h is the size of quadratic elements there, c their coefficient of "
+     "consolidation. "
      "They are those of the discrete equations, and die out.",
      "Make the mesh finer at the drained node, or the first step longer; a grading above 1 serves the later "
      "ones."},
