@@ -217,14 +217,16 @@ void StepControl::start_on_last_way(double size) {
   on_last_way_ = run_.assembly().evaluate(state.du, &run_.tangent()) == Outcome::ok;
 }
 
-// Where no motion is prescribed, a failure at the shortest step is a limit load as a rule, and remains one.
+// Associated flow leaves Newton's method no cycles.  Where no motion is prescribed, a failure at the shortest step is a limit
+// load as a rule, and remains one.
 bool StepControl::can_relax(bool last) const {
-  if (run_.tangent().linear() || !Relaxation::suits(run_.model) ||
-      run_.assembly().dof_map().displacements() == 0)
+  const Assembly& assembly = run_.assembly();
+  if (run_.tangent().linear() || !Relaxation::suits(run_.model) || assembly.dof_map().displacements() == 0)
     return false;
   if (run_.settings.trials != nullptr) return damped_.proves() && !damped_.has_walls();
   const bool fails_here = refused_at_ == run_.state.reached && !last;
-  return (last || run_.state.path.relaxed > 0) && !fails_here && !run_.system.rate().isZero(0.0);
+  const bool due = last || run_.state.path.relaxed > 0;
+  return due && !fails_here && !assembly.scene().symmetric && !run_.system.rate().isZero(0.0);
 }
 
 // Takes the rest of the increment, or a part of it, by dynamic relaxation.  False: none of it; then nothing has changed.
@@ -235,14 +237,12 @@ bool StepControl::relax(StepReport& report, double end) {
   if (run_.assembly().condensation() != nullptr) take_loads();
   while (state.reached < end) {
     double to = end;
-    const Eigen::VectorXd start_u = state.u;
     Relaxation relaxation(run_, damped_.of_solids());
     relaxed_ = relax_step(relaxation, report, state.reached, to);
     if (relaxed_.outcome != StepOutcome::converged && run_.settings.trials == nullptr) break;
     if (!record(report, relaxed_, to - state.reached)) break;
     accept(report, relaxed_, to);
     relaxation.show_strength();
-    last_du_ = state.u - start_u;
     state.path.forget_way();
     ++state.path.relaxed;
     ++report.relaxed;
