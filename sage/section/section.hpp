@@ -62,8 +62,9 @@ using Outline = std::vector<OutlinePart>;
 struct SectionArea {
   std::string name;
   Outline outline;
-  std::vector<Outline> holes;  // may touch the outline or lie on it in part (a tunnel on the axis of symmetry)
-  double size = 0.0;           // longest element edge in it; 0 = no wish
+  std::vector<Outline> holes =
+      {};             // may touch the outline or lie on it in part (a tunnel on the axis of symmetry)
+  double size = 0.0;  // longest element edge in it; 0 = no wish
 };
 
 enum class ElementShape { triangle, quadrilateral };

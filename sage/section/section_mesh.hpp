@@ -50,8 +50,8 @@ struct LineMesh {
 };
 
 struct PointMesh {
-  std::vector<int>
-      nodes;      // at its place, of bodies and beams; empty for a point on no area and no beam (a centre)
+  // At its place, that of beams first, then those of bodies.  Empty for a point on no area and no beam (a centre).
+  std::vector<int> nodes;
   int beam = -1;  // the one that beams have there
 };
 

@@ -489,6 +489,8 @@ class Splitter {
       if (passing == passing_.end()) continue;
       for (const Segment* segment : passing->second)
         if (has_beam(*segment)) point.beam = beam_of(*segment)[segment->a == vertex ? 0 : 1];
+      const auto beam = std::find(point.nodes.begin(), point.nodes.end(), point.beam);
+      if (beam != point.nodes.end()) std::rotate(point.nodes.begin(), beam, beam + 1);
     }
     used_ = std::move(used);
   }

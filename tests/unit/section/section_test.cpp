@@ -112,8 +112,29 @@ TEST(SectionMesh, AWallHasThreeRowsOfNodesAndTwoAtItsToe) {
     EXPECT_EQ(copies(mesh, 10, -6), 2);
     EXPECT_EQ(wall.left.back(), wall.right.back());
     EXPECT_EQ(mesh.points[9].beam, wall.beam.back());
+    EXPECT_EQ(mesh.points[8].nodes.size(), 3U);
+    EXPECT_EQ(mesh.points[8].nodes[0], wall.beam[0]);
     EXPECT_TRUE(mesh.ties.empty());
   });
+}
+
+TEST(SectionMesh, TheExampleOfTheManual) {
+  SAGE_NEEDS_GMSH();
+  Section section;
+  section.points = {{"A", {0, 0}},  {"B", {20, 0}},    {"C", {20, 10}},
+                    {"D", {0, 10}}, {"top", {10, 10}}, {"toe", {10, 4}}};
+  section.areas = {{"clay", {{0}, {1}, {2}, {3}}}};
+  SectionLine wall;
+  wall.name = "wall";
+  wall.points = {4, 5};
+  wall.beam = true;
+  wall.interface = InterfaceSide::both;
+  wall.size = 0.5;
+  section.lines = {wall};
+  section.size = 2.0;
+  const SectionMesh mesh = mesh_section(section);
+  EXPECT_NEAR(MeshCheck(mesh).area(0), 200.0, 1e-9);
+  EXPECT_EQ(mesh.lines[0].segments.size(), 12U);
 }
 
 TEST(SectionMesh, TheToeCanBeTiedOrOpen) {
@@ -161,7 +182,10 @@ TEST(SectionMesh, CrossingJointsMakeFourNodesAndEndingOnesThree) {
   add_line(section, "flat", {{0, 2}, {4, 2}}, InterfaceSide::both, false);
   add_line(section, "upright", {{1, 0}, {1, 4}}, InterfaceSide::both, false);
   add_line(section, "ending", {{3, 4}, {3, 2}}, InterfaceSide::both, false);
+  add_line(section, "base", {{0, 0}, {4, 0}}, InterfaceSide::none, false);
   with_all_kinds(section, [](const SectionMesh& mesh) {
+    // Supports along the base need both nodes where the upright joint reaches it.
+    EXPECT_EQ(mesh.lines[3].nodes.size(), mesh.lines[3].left.size() + 1);
     EXPECT_NEAR(MeshCheck(mesh).free_length(), 16.0 + 2 * (4 + 4 + 2), 1e-9);
     EXPECT_EQ(copies(mesh, 1, 2), 4);
     EXPECT_EQ(copies(mesh, 3, 2), 3);
