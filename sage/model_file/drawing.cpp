@@ -226,6 +226,13 @@ bool Drawing::mesh_it() {
     for (const SectionFault& fault : error.faults())
       values_.error(fault.code, place_of(fault.item, fault.index), fault.message);
   }
+  for (const Tie& tie : mesh_.ties) {
+    if (tie.kind != Tie::Kind::end) continue;
+    values_.error("S152", place_of(SectionItem::line, tie.line),
+                  "line " + section_.lines[static_cast<std::size_t>(tie.line)].name +
+                      ": the end of a joint inside the ground can be joined only with a beam; leave it open");
+    meshed_ = false;
+  }
   return meshed_;
 }
 
@@ -460,11 +467,8 @@ std::vector<int> Drawing::nodes_along(const toml::node& node) {
   std::vector<int> numbers;
   if (!meshed_) return numbers;
   const LineMesh& line = mesh_.lines[static_cast<std::size_t>(found->second)];
-  for (const std::vector<int>* list : {&line.left, &line.right, &line.beam})
-    for (const int one : *list)
-      if (one >= 0) numbers.push_back(number_of(one));
-  std::ranges::sort(numbers);
-  numbers.erase(std::ranges::unique(numbers).begin(), numbers.end());
+  for (const int one : line.nodes) numbers.push_back(number_of(one));
+  std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
 

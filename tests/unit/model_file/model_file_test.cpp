@@ -184,6 +184,65 @@ TEST(ModelFile, UnitsAreTurnedIntoThoseOfTheModel) {
 }
 
 // What editors and the manual say of the keys is written from the table that the reader has.
+// Two blocks with a joint between them that reaches the base.
+const std::string kJoint = R"(title = "joint"
+geometry = "plane strain"
+fixity = [{line = "base", x = "fixed", y = "fixed"}]
+[units]
+length = "m"
+force = "kN"
+stress = "kPa"
+[mesh]
+element = "quad4"
+size = 1.0
+mesher = "blocks"
+[[material]]
+name = "rock"
+law = "linear_elastic"
+youngs_modulus = 1e4
+poissons_ratio = 0.2
+[[material]]
+name = "gap"
+law = "goodman"
+shear_stiffness = 1e5
+normal_stiffness = 1e5
+[[line]]
+name = "joint"
+points = [[2, 0], [2, 2]]
+interface = {material = "gap"}
+[[line]]
+name = "base"
+points = [[0, 0], [4, 0]]
+[[area]]
+name = "one"
+outline = [[0, 0], [4, 0], [4, 2], [0, 2]]
+material = "rock"
+[[stage]]
+title = "weight"
+gravity_y = -1
+)";
+
+// Elements of size 1: the base has 5 places, two nodes at the joint's.
+TEST(ModelFile, SupportsAlongALineHoldBothSidesOfAJoint) {
+  const Model model = model_of(kJoint);
+  EXPECT_EQ(model.mesh.nodes(), 5 * 3 + 3);
+  EXPECT_EQ(model.fixities.size(), 6U);
+}
+
+TEST(ModelFile, AJointIsNotJoinedAtItsEnd) {
+  std::string text = kJoint;
+  text.replace(text.find("[2, 2]"), 6, "[2, 1]");
+  EXPECT_EQ(model_of(text).mesh.nodes(), 5 * 3 + 2);
+  text.insert(text.find("interface ="), "last_end = \"joined\"\n");
+  try {
+    model_of(text);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("line joint: the end of a joint"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(ModelFile, SchemaAndTablesAreWrittenFromTheKeys) {
   const std::filesystem::path source = SAGE_SOURCE_DIR;
   const std::pair<std::filesystem::path, std::string> pages[] = {
