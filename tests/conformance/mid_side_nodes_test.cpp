@@ -30,7 +30,7 @@ struct Solid {
 std::vector<Solid> solids_with_mid_side_nodes() {
   std::vector<Solid> solids;
   for (const auto& [code, entry] : full_catalogue().elements.entries())
-    if (entry.solid() && !entry.only_corners())
+    if (entry.solid() && !entry.only_corners() && entry.unknowns.empty())
       for (const Formulation& f : entry.formulations)
         solids.push_back({code, f.code, &entry, entry.name + " " + f.name});
   return solids;

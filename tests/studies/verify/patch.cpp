@@ -83,7 +83,7 @@ struct Solid {
 std::vector<Solid> solids(const Record& record) {
   std::vector<Solid> list;
   for (const auto& [code, entry] : record.bench().catalogue().elements.entries())
-    if (entry.solid())
+    if (entry.solid() && entry.unknowns.empty())
       for (const Formulation& f : entry.formulations) list.push_back({code, f.code, entry.name + " " + f.name});
   return list;
 }

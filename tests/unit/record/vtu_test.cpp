@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -195,6 +196,13 @@ TEST_F(VtuReadBack, KnowsEveryShape) {
     model.geometry =
         entry->nodes == 1 ? Geometry::axisymmetric : Geometry::plane_strain;  // a ring has one node
     set_element(group, base.catalogue, code, 0, model.geometry);
+    if (entry->has_pores()) {
+      Material water;
+      water.entry = base.catalogue.materials.share(base.catalogue.materials.code_of("pore_flow"));
+      water.law = water.entry->make(std::array{1.0}, UnitSystem{"m", "kN", "kPa", 0.0, 1.0});
+      model.materials.push_back(std::move(water));
+      group.second_material = 1;
+    }
     group.element_numbers = {1};
     model.mesh.x = test::sample_shape(*entry);
     for (int i = 0; i < entry->nodes; ++i) {
