@@ -187,7 +187,11 @@ void note_unused_nodes(Builder& b) {
 void note_unused_materials(Builder& b) {
   // By numbers: undrained groups have a twin of their material, which bears its number.
   std::set<int> used;
-  for (const Group& group : b.model.groups) used.insert(b.model.material_of(group).number);
+  for (const Group& group : b.model.groups) {
+    used.insert(b.model.material_of(group).number);
+    if (group.second_material >= 0)
+      used.insert(b.model.materials[static_cast<std::size_t>(group.second_material)].number);
+  }
   for (const Material& material : b.model.materials)
     if (!used.contains(material.number))
       b.note("S329", material.where,

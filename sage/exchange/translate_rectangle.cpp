@@ -84,7 +84,8 @@ void add_fixities_with_pressures(const Source& s, CardWriter& out) {
     for (int i = 0; i <= s.mesh.columns(); ++i)
       corners.insert(s.mesh.number(i * s.mesh.intervals(), j * s.mesh.intervals()));
   for (const CardView& card : s.deck.all("fixity")) {
-    out.add("fixity", card.where(), {take(card, "first"), take(card, "x_code"), take(card, "y_code")});
+    if (card.integer("x_code") == 1 || card.integer("y_code") == 1)
+      out.add("fixity", card.where(), {take(card, "first"), take(card, "x_code"), take(card, "y_code")});
     if (card.integer("pressure_code") == 1 && corners.contains(card.integer("first")))
       out.add("fixity", card.where(),
               {take(card, "first"),
