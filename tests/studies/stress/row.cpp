@@ -140,8 +140,8 @@ RowResult evaluate(const Row& row, const scenes::Workbench& bench) {
 
 std::vector<Row> all_rows() {
   std::vector<Row> all;
-  for (auto family : {material_rows, interface_rows, shape_rows, support_rows, invariance_rows, stage_rows,
-                      input_rows, water_rows, structure_rows, clay_rows})
+  for (auto family : {material_rows, collapse_rows, interface_rows, shape_rows, support_rows, invariance_rows,
+                      stage_rows, input_rows, water_rows, structure_rows, clay_rows})
     for (Row& row : family()) all.push_back(std::move(row));
   return all;
 }

@@ -81,6 +81,7 @@ struct Row {
 // All rows, by family.
 std::vector<Row> all_rows();
 std::vector<Row> material_rows();
+std::vector<Row> collapse_rows();
 std::vector<Row> interface_rows();
 std::vector<Row> shape_rows();
 std::vector<Row> support_rows();

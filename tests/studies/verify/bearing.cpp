@@ -3,58 +3,13 @@
 
 #include <cmath>
 
+#include "tests/studies/scenes/footing.hpp"
 #include "tests/studies/verify/cases.hpp"
 #include "tests/studies/verify/fields.hpp"
 
 namespace sage::verify {
 
 namespace {
-
-// Footing of half width or radius 1 on weightless ground, c = 1, quad8 reduced.  Cells get finer towards the
-// footing's edge.
-struct Footing {
-  int geometry = 1;
-  bool rough = false;
-  int law = 4;  // 3 Drucker-Prager, plane strain cone without volume change
-  double phi = 0.0, psi = 0.0, nu = 0.49, E = 298.0;
-  int inside = 12, outside = 14, down = 16;
-  double width = 4.0, depth = 3.0, power = 2.2;
-  Block block;
-  DeckWriter deck{1};
-  std::vector<int> base;  // nodes under the footing
-
-  void build() {
-    const int in = inside, out = outside;
-    block.cell = Cell::quad8;
-    block.columns = in + out;
-    block.rows = down;
-    block.straight = true;
-    block.place = [in, out, w = width, d = depth, p = power](double s, double t) -> Vector2 {
-      const double place = s * (in + out);
-      const double x =
-          place <= in ? 1.0 - std::pow(1.0 - place / in, p) : 1.0 + w * std::pow((place - in) / out, p);
-      return {x, -d * std::pow(1.0 - t, p)};
-    };
-    deck = DeckWriter(geometry);
-    block.write_nodes(deck);
-    std::vector<double> strength{E, nu, 1.0, phi, psi};
-    if (law == 3) strength.insert(strength.end(), {4.0, 1.0});
-    deck.material(1, law, strength);
-    deck.group(1, 2, 1, 1);
-    block.write_elements(deck, 1);
-    for (int n : block.bottom()) deck.fix(n, 1, 1);
-    for (int n : block.left()) deck.fix(n, 1, 0);
-    for (int n : block.right()) deck.fix(n, 1, 0);
-    for (int i = 0; i <= 2 * inside; ++i) base.push_back(block.node(i, block.up() - 1));
-  }
-  void press(double settlement, int increments) {
-    StageCards& stage = deck.stage(increments);
-    for (int n : base) stage.fix(n, rough ? 1 : 0, 1, 0.0, -settlement);
-  }
-  double load(const WholeRun& run, const Snapshot& at) const {
-    return -run.reaction(at, base, 1) / (geometry == 1 ? 1.0 : kPi);
-  }
-};
 
 void collapse(Record& record, Footing footing, const std::string& name, double settlement, double reference,
               double gate) {
@@ -111,8 +66,7 @@ void circle(Record& record) {
 
 // Weightless ground with friction, associated flow: N_c = (N_q - 1) cot phi.
 void friction(Record& record) {
-  const double phi = 20.0, Nq = std::exp(kPi * std::tan(phi * kRadiansPerDegree)) *
-                                std::pow(std::tan((45 + phi / 2) * kRadiansPerDegree), 2);
+  const double phi = 20.0;
   Footing footing;
   footing.rough = true;
   footing.phi = footing.psi = phi;
@@ -123,7 +77,8 @@ void friction(Record& record) {
   footing.down = 16;
   footing.width = 7.0;
   footing.depth = 4.0;
-  collapse(record, footing, "N_c, phi = psi = 20", 0.2, (Nq - 1) / std::tan(phi * kRadiansPerDegree), 0.03);
+  collapse(record, footing, "N_c, phi = psi = 20", 0.2,
+           (scenes::prandtl_Nq(phi) - 1) / std::tan(phi * kRadiansPerDegree), 0.03);
 }
 
 }  // namespace
