@@ -48,13 +48,10 @@ struct MeshResult {
   double middle() const { return 0.5 * (*found.lower + *found.upper); }
 };
 
-// What was found in the deck, without what --dilation none takes away.  Throws InputError where warnings count.
+// What was found in the deck.  Throws InputError where warnings count.
 void report(const SafetyOptions& options, const Diagnostics& found) {
-  Diagnostics all;
-  for (const Diagnostic& one : found.list())
-    if (options.search.dilation != DilationRule::none || !(one.code == Code("S355"))) all.add(one);
-  print_diagnostics(all);
-  if (options.input.strict && all.warnings() > 0)
+  print_diagnostics(found);
+  if (options.input.strict && found.warnings() > 0)
     throw InputError("S906", {options.deck, 0, 0, 0}, "warnings count as errors (--strict)");
 }
 
@@ -63,6 +60,7 @@ MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue
   BuildOptions build = options.input.build;
   if (!options.solver.empty()) build.solver = solver_code(catalogue, options.solver);
   build.refine += refine;
+  build.dilates = options.search.dilation != DilationRule::none;
   MeshResult result;
   if (refine > 0) result.options = fmt::format("--refine {}", build.refine);
   result.model = std::make_unique<Model>(build_model(deck, catalogue, build));

@@ -7,6 +7,7 @@
 
 #include "sage/builder/builder.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/model/locking.hpp"
 
 namespace sage::builder {
 
@@ -18,6 +19,18 @@ int for_law(const ElementEntry& entry, const Formulation& named, const Material&
   const bool linear =
       std::visit([](const auto& law) { return law == nullptr || law->traits().linear; }, material.law);
   return linear || yielding == entry.formulations.end() ? named.code : yielding->code;
+}
+
+// Where the deck leaves the formulation open: of elements whose own one resists a flow that dilates, for ground that
+// dilates, the first that does not.
+int left_open(const ElementEntry& entry, Geometry geometry, const Material& material) {
+  const auto follows = [&](const Formulation& f) {
+    return !resists_dilation(entry, entry.make(geometry, f.code)->traits());
+  };
+  const Formulation& own = entry.formulations.front();
+  if (!entry.solid() || dilation_of(material).none() || follows(own)) return own.code;
+  const auto found = std::ranges::find_if(entry.formulations, follows);
+  return found == entry.formulations.end() ? own.code : found->code;
 }
 
 std::string formulations_of(const ElementEntry& entry) {
@@ -447,6 +460,32 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
                      : "has " + std::to_string(size) + (size == 1 ? " component" : " components")));
 }
 
+// The element of a group in the formulation that the card names or leaves open.
+void read_formulation(Builder& b, const CardView& card, const ElementEntry& entry, bool replaced,
+                      bool material_known, Group& group) {
+  const std::string name = "group " + std::to_string(group.number);
+  const Material* material =
+      material_known ? &b.model.materials[static_cast<std::size_t>(group.material)] : nullptr;
+  int formulation = chosen_formulation(b, entry, card.integer("formulation"), replaced);
+  if (formulation == 0 && material != nullptr && b.options.dilates)
+    formulation = left_open(entry, b.model.geometry, *material);
+  const auto found =
+      std::find_if(entry.formulations.begin(), entry.formulations.end(),
+                   [&](const Formulation& f) { return f.code == formulation || formulation == 0; });
+  if (found == entry.formulations.end()) {
+    b.error("S210", card.where("formulation"),
+            name + ": formulation " + std::to_string(formulation) + " of " + entry.name +
+                " is unknown; 0 default, " + formulations_of(entry));
+    return;
+  }
+  try {
+    set_element(group, b.catalogue, group.element_code,
+                material == nullptr ? found->code : for_law(entry, *found, *material), b.model.geometry);
+  } catch (const ParameterError& error) {
+    b.error(error.code(), card.where("element"), name + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 void build_groups(Builder& b) {
@@ -476,27 +515,8 @@ void build_groups(Builder& b) {
               name + ": material " + std::to_string(card.integer("material")) +
                   " is not defined by any material card");
     if (entry != nullptr) {
-      const int formulation =
-          chosen_formulation(b, *entry, card.integer("formulation"), group.element_code != deck_code);
-      const auto found =
-          std::find_if(entry->formulations.begin(), entry->formulations.end(),
-                       [&](const Formulation& f) { return f.code == formulation || formulation == 0; });
-      if (found == entry->formulations.end()) {
-        b.error("S210", card.where("formulation"),
-                name + ": formulation " + std::to_string(formulation) + " of " + entry->name +
-                    " is unknown; 0 default, " + formulations_of(*entry));
-      } else {
-        try {
-          set_element(
-              group, b.catalogue, group.element_code,
-              material == b.material_index.end()
-                  ? found->code
-                  : for_law(*entry, *found, b.model.materials[static_cast<std::size_t>(group.material)]),
-              b.model.geometry);
-        } catch (const ParameterError& error) {
-          b.error(error.code(), card.where("element"), name + ": " + error.what());
-        }
-      }
+      read_formulation(b, card, *entry, group.element_code != deck_code, material != b.material_index.end(),
+                       group);
       if (material != b.material_index.end()) {
         const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
         const MaterialEntry* law = b.catalogue.materials.find(m.code);

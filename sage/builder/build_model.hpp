@@ -42,7 +42,9 @@ struct BuildOptions : MeshOptions {
   bool partial = false;  // what the program lacks may be left out (Deck::left_out); otherwise it is an error
   std::vector<PointRequest> points;  // behind the deck's reports
   HeadReader heads;                  // for water cards that name a result file; empty = they are refused
-  bool points_outside = false;       // a requested point may lie outside: its report is blank then
+  bool dilates =
+      true;  // false: the analysis takes all dilation away, and nothing is chosen or said because of it
+  bool points_outside = false;  // a requested point may lie outside: its report is blank then
 };
 
 // Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.

@@ -201,8 +201,8 @@ void warn_coarse(Builder& b, const Stage& stage, bool moved, const NodeSpacing& 
                         (moved ? " at the end" : "");
   if (spacing.locks)
     message +=
-        ", and the elements lock where the ground flows: loads are 10 % and more too large; quad4 b-bar "
-        "or 8-node quadrilaterals (reduced) do not";
+        ", and the elements lock where the ground flows: loads are 10 % and more too large; quad4 "
+        "enhanced or 8-node quadrilaterals (reduced) do not";
   else
     message += moved ? ": loads are 5 to 20 % too large; 0.005 leaves about 2 %"
                      : ": loads are 10 % and more too large";

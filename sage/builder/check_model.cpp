@@ -319,9 +319,9 @@ void warn_locking(Builder& b) {
     const std::string what =
         traits.locks
             ? ": full integration locks near nu = 1/2 and reports too much stiffness; " +
-                  (remedy.empty() ? "8-node quadrilaterals (reduced) or quad4 b-bar do not" : remedy)
+                  (remedy.empty() ? "quad4 enhanced or 8-node quadrilaterals (reduced) do not" : remedy)
             : ": near nu = 1/2 its error is several times that at nu = 0.3 and falls more slowly with the "
-              "mesh; 8-node quadrilaterals (reduced) or quad4 b-bar keep theirs";
+              "mesh; quad4 enhanced or 8-node quadrilaterals (reduced) keep theirs";
     b.warning("S325", group.where,
               "group " + std::to_string(group.number) + " (" + group.element_name +
                   (undrained ? std::string(") is undrained") : ") has nu = " + rounded_text(nu, 7)) + what);
@@ -334,22 +334,14 @@ void warn_locking(Builder& b) {
 
 // What makes the ground of a material grow while it flows, as words; empty = nothing.
 std::string dilation_words(const Material& material) {
-  if (material.entry == nullptr || !material.entry->for_solids()) return {};
-  const auto& rows = material.entry->parameters;
-  const std::size_t count = std::min(rows.size(), material.parameters.size());
-  // A code for flow: beside an angle 1 means none, without one it is the share of the associated flow.
-  const int at = material.entry->find("flow");
-  const double flow =
-      at >= 0 && static_cast<std::size_t>(at) < count ? material.parameters[static_cast<std::size_t>(at)] : 0.0;
-  double angle = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
-    if (rows[i].role == ParameterRole::dilation_angle) angle = std::max(angle, material.parameters[i]);
-  if (material.entry->find(ParameterRole::dilation_angle) < 0)
-    return flow > 0.0 ? "a flow that dilates, " + rounded_text(flow) + " of the associated one" : std::string();
-  return angle > 0.0 && flow == 0.0 ? "a dilation angle of " + rounded_text(angle) + " degrees" : std::string();
+  const Dilation dilation = dilation_of(material);
+  if (dilation.none()) return {};
+  return dilation.angle > 0.0
+             ? "a dilation angle of " + rounded_text(dilation.angle) + " degrees"
+             : "a flow that dilates, " + rounded_text(dilation.share) + " of the associated one";
 }
 
-// Four-node elements resist a flow that dilates, on the unsafe side.  Numbers: docs/theory/accuracy.md.
+// Elements that resist a flow that dilates err on the unsafe side.  Numbers: docs/theory/accuracy.md.
 void warn_dilation(Builder& b) {
   constexpr int kShown = 6;
   const Group* first = nullptr;
@@ -357,8 +349,7 @@ void warn_dilation(Builder& b) {
   int found = 0;
   bool locks = false;
   for (const Group& group : b.model.groups) {
-    if (!group.solid() || !group.entry->square() || !group.entry->only_corners() || group.elements() == 0)
-      continue;
+    if (!resists_dilation(*group.entry, group.element->traits()) || group.elements() == 0) continue;
     const std::string dilation = dilation_words(b.model.material_of(group));
     if (dilation.empty()) continue;
     if (first == nullptr) first = &group, words = dilation;
@@ -373,7 +364,8 @@ void warn_dilation(Builder& b) {
                 (several ? "have a flow that dilates, the first " : "has ") + words +
                 ": they collapse too late, a slope with psi = 20 degrees at F = " +
                 (locks ? "1.58 for 1.38 (14" : "1.52 for 1.38 (10") +
-                " % too high); 8-node elements (--element quad8) are within 2 %");
+                " % too high); quad4 enhanced (--formulation 5) and 8-node elements (--element quad8) are "
+                "within 2 %");
 }
 
 }  // namespace
@@ -396,7 +388,7 @@ void check_model(Builder& b) {
   if (b.problems.errors() == 0) check_held_structures(b);
   check_solver(b);
   warn_locking(b);
-  warn_dilation(b);
+  if (b.options.dilates) warn_dilation(b);
 }
 
 }  // namespace sage::builder

@@ -338,8 +338,8 @@ constexpr MessageEntry kMessages[] = {
      "The value is outside of what the law can compute with: a modulus of zero, Poisson's ratio of 0.5, "
      "a friction angle of 90 degrees, dilation above friction. Angles are degrees, stresses the deck's "
      "units.",
-     "Correct the value. For nearly incompressible soil take nu up to 0.4999999 with a B-bar formulation "
-     "(--formulation 2) or 8-node elements."},
+     "Correct the value. For nearly incompressible soil take nu up to 0.4999999 with quad4 enhanced "
+     "(--formulation 5) or 8-node elements."},
     {"S225", "law and element do not fit",
      "Solids need a law for solids, interfaces a law of joints: the group's material is of the other "
      "kind.",
@@ -627,8 +627,8 @@ constexpr MessageEntry kMessages[] = {
      "Fully integrated 4-node elements of nearly incompressible material are too stiff, and stresses "
      "oscillate from element to element; the source chapter's nu = .495 entries are 3 to 4 percent off "
      "by it.",
-     "--formulation 2 (B-bar) or 8-node elements (--element quad8). Compare both: sagefe compare DECK "
-     "--formulation-b 2."},
+     "--formulation 5 (enhanced) or 8-node elements (--element quad8). Compare both: sagefe compare DECK "
+     "--formulation-b 5."},
     {"S326", "elements overlap",
      "Two elements cover the same ground: its stiffness and weight count twice. A block is there twice, a node "
      "lies beyond its neighbour, or a group that a later stage activates on the same nodes is not declared.",
@@ -746,12 +746,14 @@ constexpr MessageEntry kMessages[] = {
      "Give a plate its thickness (law plate), or a section its hoop stiffnesses. Spokes that end on a hub are "
      "held at its radius."},
     {"S355", "4-node elements dilate",
-     "A group of 4-node quadrilaterals has a law whose plastic flow increases the volume. These elements "
+     "A group of 4-node quadrilaterals without an enhanced strain has a law whose plastic flow increases the "
+     "volume. These elements "
      "cannot follow that flow and resist too long. On a slope of 1:2 with phi = psi = 20 degrees the factor of "
      "safety is 1.52 with b-bar and 1.58 with full integration. 8-node elements give 1.39, and 1.36 to 1.37 is "
      "right. With psi = 5 degrees the error is the same. docs/theory/accuracy.md has the measurement.",
-     "Use 8-node elements (--element quad8), or a dilation angle of 0 (sagefe safety --dilation none), with "
-     "which 4-node b-bar elements are about 3 % high."},
+     "Use quad4 enhanced (--formulation 5) or 8-node elements (--element quad8). With a dilation angle of 0 "
+     "(sagefe "
+     "safety --dilation none) b-bar elements are about 3 % high."},
     {"S356", "a unit weight is not one of soil",
      "In the deck's units the number is less than a quarter or more than 3.5 times the unit weight of water "
      "(8.5 times for a law without strength, which may be steel). Likely it is a density (kg/m^3, t/m^3), or "
@@ -846,7 +848,7 @@ constexpr MessageEntry kMessages[] = {
      "Elements of the model lock near Poisson's ratio 1/2, or where soil is undrained. Their stresses are "
      "smooth and "
      "wrong, and the estimate of --error sees only what is not smooth.",
-     "Elements that do not lock: 8-node quadrilaterals (reduced), quad4 b-bar, or those of high degree."},
+     "Elements that do not lock: 8-node quadrilaterals (reduced), quad4 enhanced, or those of high degree."},
 
     // S5: the analysis.
     {"S501", "no equilibrium",

@@ -1,5 +1,7 @@
 #include "sage/model/locking.hpp"
 
+#include <algorithm>
+
 namespace sage {
 
 double poissons_ratio(const Material& material) {
@@ -8,6 +10,26 @@ double poissons_ratio(const Material& material) {
 
 bool nearly_incompressible(const Model& model, const Group& group) {
   return poissons_ratio(model.material_of(group)) > 0.45 || group.excess >= 0;
+}
+
+bool resists_dilation(const ElementEntry& entry, const ElementTraits& traits) {
+  return entry.solid() && entry.square() && entry.only_corners() && traits.own_doubles == 0;
+}
+
+Dilation dilation_of(const Material& material) {
+  if (material.entry == nullptr || !material.entry->for_solids()) return {};
+  const auto& rows = material.entry->parameters;
+  const std::size_t count = std::min(rows.size(), material.parameters.size());
+  // A code for flow: beside an angle 1 means none, without one it is the share of the associated flow.
+  const int at = material.entry->find("flow");
+  const double flow =
+      at >= 0 && static_cast<std::size_t>(at) < count ? material.parameters[static_cast<std::size_t>(at)] : 0.0;
+  if (material.entry->find(ParameterRole::dilation_angle) < 0) return {0.0, flow};
+  if (flow != 0.0) return {};
+  double angle = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (rows[i].role == ParameterRole::dilation_angle) angle = std::max(angle, material.parameters[i]);
+  return {angle, 0.0};
 }
 
 }  // namespace sage

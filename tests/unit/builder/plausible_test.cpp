@@ -139,7 +139,7 @@ TEST(Locking, TheRemedyFitsTheElement) {
     const char* remedy;
   } cases[] = {{Cell::quad4, 1, "b-bar (formulation 2) does not"},
                {Cell::quad8, 2, "reduced integration (formulation 1) does not"},
-               {Cell::quad9, 1, "8-node quadrilaterals (reduced) or quad4 b-bar do not"},
+               {Cell::quad9, 1, "quad4 enhanced or 8-node quadrilaterals (reduced) do not"},
                {Cell::tri3, 1, "6-node triangles (three points) do not"},
                {Cell::tri6, 2, "three points (formulation 1) do not"}};
   for (const auto& [cell, formulation, remedy] : cases) {
@@ -444,6 +444,8 @@ INSTANTIATE_TEST_SUITE_P(
                  [](DeckWriter& d) {
                    d.materials.clear();
                    d.material(1, 4, {1e4, 0.3, 10.0, 30.0, 5.0}, 20.0);
+                   d.groups.clear();
+                   d.group(1, 1, 2, 1);
                  },
                  "warning: group 1 of 4-node elements (quad4 b-bar) has a dilation angle of 5 degrees"},
         Unlikely{"NegativeNu",
