@@ -215,9 +215,9 @@ std::string stem_of_table(const fs::path& file) {
   const fs::path name = file.filename().stem();
   std::string word = name.extension().string();
   while (!word.empty() && std::isdigit(static_cast<unsigned char>(word.back())) != 0) word.pop_back();
-  constexpr std::string_view kAdded[] = {".report",     ".increments",  ".nodes",   ".points",
-                                         ".interfaces", ".structures",  ".flow",    ".ends",
-                                         ".envelope",   ".convergence", ".compare", ".safety"};
+  constexpr std::string_view kAdded[] = {
+      ".report", ".increments", ".nodes",       ".points",  ".interfaces", ".structures", ".flow",
+      ".ends",   ".envelope",   ".convergence", ".compare", ".safety",     ".bounds",     ".bounds.fields"};
   return (std::ranges::find(kAdded, word) != std::end(kAdded) ? name.stem() : name).string();
 }
 

@@ -80,6 +80,8 @@ constexpr Entry kCommands[] = {
     {"safety",
      "factor of safety by strength reduction: bracket with the reason for both ends, curve, mechanism",
      safety_command, true},
+    {"bounds", "rigorous lower and upper bounds on a collapse load or factor of safety by limit analysis",
+     bounds_command, true},
     {"sweep",
      "many cases of one deck, by names of its numbers: grids, lists, random draws; one table and a plot",
      sweep_command, true},

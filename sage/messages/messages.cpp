@@ -1035,6 +1035,46 @@ constexpr MessageEntry kMessages[] = {
      "Nothing is to be done. More increments, and a second mesh, show how far the answer depends on the path. "
      "A "
      "dilation angle nearer to friction makes it unique."},
+    {"S570", "bounds need plane strain",
+     "sagefe bounds solves the programs of limit analysis in plane strain. Its upper field has no hoop strain "
+     "and its "
+     "lower field no hoop stress.",
+     "Use sagefe run or sagefe safety for the axisymmetric model."},
+    {"S571", "bounds know no structures",
+     "Limit analysis of this program has soil and interfaces. A bar, beam or spring has no place in its stress "
+     "field.",
+     "Remove the structure, or put its force on the ground as a pressure; sagefe safety takes structures."},
+    {"S572", "the law has no bounds",
+     "The theorems of limit analysis need a convex yield condition that does not change. sagefe bounds has "
+     "Mohr-Coulomb, "
+     "Tresca (phi = 0) and Drucker-Prager without tension cut-off in soil, and cohesion with friction in "
+     "interfaces.",
+     "Replace the material by mohr_coulomb with the strength that it has at failure."},
+    {"S573", "the load is no traction",
+     "A stress field can carry tractions on sides of elements, not a force or a movement at one point: below a "
+     "point "
+     "the ground yields at any load.",
+     "Use a pressure card, forces on all nodes of the loaded sides, or movements of whole sides."},
+    {"S574", "there is nothing to be bounded",
+     "The chosen stage does not exist, has no soil, or adds nothing that could be multiplied.",
+     "Choose another stage with --stage, or the factor of safety with --of strength."},
+    {"S575", "a bound was not found",
+     "One of the two programs ended without a field that passed the check of equilibrium and yield, or of the "
+     "flow rule. "
+     "The message has the reason.",
+     "Bounds on a load exist only where the fixed loads leave a reserve of strength; --of strength bounds the "
+     "factor of "
+     "safety of ground that fails. Another mesh (--elements, --refine) helps where the optimisation ended "
+     "early."},
+    {"S576", "the mesh does not suit bounds",
+     "Both fields need a mesh whose elements meet along whole sides, and interfaces with soil on both sides.",
+     "Divide the elements so that no node lies within a side of another; bond an interface that lies on no "
+     "soil to "
+     "soil."},
+    {"S577", "the pore pressure has no bounds",
+     "Bounds need pore pressures that are given: lines, r_u or values at nodes. Heads are known only after a "
+     "run.",
+     "Run the seepage stage and give the pressures at nodes."},
 
     // S6: results, checkpoints and result files.
     {"S585", "initial stresses raise the preconsolidation pressure",

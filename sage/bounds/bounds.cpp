@@ -1,0 +1,391 @@
+#include "sage/bounds/bounds.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace sage::bounds {
+
+namespace {
+
+constexpr double kExact = 1e-11;  // residuals below are rounding
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+// What the check of one field found.
+struct Check {
+  double residual = 0.0, reserve = 0.0;
+  double value = 0.0;  // tau, in the units of the program
+  bool passed() const { return residual <= kExact && reserve >= -1e-14; }
+};
+
+// Equilibrium and yield of a stress field, from the fields alone.
+Check check_stress(const ConeProgram& program, const Eigen::Matrix3Xd& sigma, double tau) {
+  Check check;
+  check.value = tau;
+  const Eigen::VectorXd loads = program.b0 + tau * program.b1, rest = loads - forces(program, sigma);
+  const double size =
+      std::max(program.b0.cwiseAbs().maxCoeff(), std::abs(tau) * program.b1.cwiseAbs().maxCoeff());
+  check.residual = rest.cwiseAbs().maxCoeff() / std::max(size, 1e-300);
+  double least = 1e300, largest = 0.0;
+  for (std::size_t c = 0; c < program.cones.size(); ++c) {
+    const Cone& cone = program.cones[c];
+    const Vector3 s = cone.h0 + tau * cone.h1 - cone.G * sigma.col(static_cast<Eigen::Index>(c));
+    least = std::min(least, s[0] - std::hypot(s[1], s[2]));
+    largest = std::max(largest, s[0]);
+  }
+  check.reserve = least / largest;
+  return check;
+}
+
+// Flow rule of a velocity field and the power of dissipation, from the velocities alone.
+Check check_velocity(const ConeProgram& program, const Eigen::VectorXd& u) {
+  Check check;
+  const Eigen::Matrix3Xd e = strains(program, u);
+  double scale = 0.0, dissipation = 0.0, strength = 0.0, least = 1e300, residual = 0.0;
+  for (std::size_t c = 0; c < program.cones.size(); ++c) {
+    const Cone& cone = program.cones[c];
+    const auto k = static_cast<Eigen::Index>(c);
+    const Matrix3 back = Eigen::CompleteOrthogonalDecomposition<Matrix3>(cone.G).pseudoInverse();
+    Vector3 z = back.transpose() * e.col(k);
+    residual = std::max(residual, (e.col(k) - cone.G.transpose() * z).cwiseAbs().maxCoeff());
+    const double bent = std::hypot(z[1], z[2]);
+    if (cone.G.row(0).isZero())
+      z[0] = bent;
+    else
+      least = std::min(least, z[0] - bent);
+    scale = std::max(scale, z[0]);
+    dissipation += cone.h0.dot(z);
+    strength += cone.h1.dot(z);
+  }
+  check.residual = residual / std::max(scale, 1e-300);
+  check.reserve = least > 1e299 ? 0.0 : least / std::max(scale, 1e-300);
+  const double power = program.b1.dot(u) - strength;
+  check.value = (dissipation - program.b0.dot(u)) / power;
+  if (!(power > 0.0)) check.reserve = -1.0;
+  return check;
+}
+
+struct Solved {
+  BoundProgram program;
+  ConeSolution solution;
+  Check check;
+  bool solved() const { return solution.status == ConeStatus::solved; }
+};
+
+Solved solve_one(const Domain& domain, const Edges& edges, Quantity quantity, Side side,
+                 const Options& options) {
+  Solved one;
+  one.program =
+      side == Side::primal ? lower_program(domain, edges, quantity) : upper_program(domain, edges, quantity);
+  ConeOptions cone;
+  cone.side = side;
+  cone.stop_asked = options.stop_asked;
+  one.solution = solve(one.program.program, cone);
+  if (one.solved())
+    one.check = side == Side::primal ? check_stress(one.program.program, one.solution.sigma, one.solution.tau)
+                                     : check_velocity(one.program.program, one.solution.u);
+  return one;
+}
+
+void count(Bound& bound, const Solved& one) {
+  ++bound.solved;
+  bound.iterations += one.solution.iterations;
+}
+
+std::string reason_of(const Solved& one, Side side, Quantity quantity) {
+  switch (one.solution.status) {
+    case ConeStatus::solved:
+      break;
+    case ConeStatus::stopped:
+      return "interrupted";
+    case ConeStatus::infeasible:
+      return quantity == Quantity::load
+                 ? "no stress field carries the fixed loads: they alone exceed the strength"
+                 : "no stress field carries the loads";
+    case ConeStatus::unbounded:
+      return "the load can grow without limit: no mechanism in which it does work is possible";
+    case ConeStatus::no_progress:
+      return "the optimisation ended without a solution: the fixed loads may exceed the strength, or the load "
+             "has no limit";
+  }
+  return side == Side::primal ? "the stress field failed the check of equilibrium or yield"
+                              : "the velocity field failed the check of the flow rule";
+}
+
+void keep_check(Bound& bound, const Solved& one) {
+  bound.residual = one.check.residual;
+  bound.reserve = std::max(0.0, one.check.reserve);
+}
+
+// ---- bounds on a load
+
+Solved bound_load(const Domain& domain, const Edges& edges, Side side, const Options& options, Bound& bound) {
+  Solved one = solve_one(domain, edges, Quantity::load, side, options);
+  count(bound, one);
+  if (!one.solved() || !one.check.passed()) {
+    bound.reason = reason_of(one, side, Quantity::load);
+    return one;
+  }
+  bound.value = one.check.value * one.program.units.tau;
+  keep_check(bound, one);
+  const double optimum = side == Side::primal ? one.solution.dual : one.solution.tau;
+  bound.margin = std::abs(optimum - one.check.value) / std::max(std::abs(one.check.value), 1e-12);
+  return one;
+}
+
+// ---- bounds on the factor of safety
+
+// Largest F for which a circle of this radius and centre (tension positive) does not yield.
+double factor_of(const Strength& strength, double radius, double centre) {
+  if (strength.yield == Yield::mohr_coulomb) {
+    const double tangent = std::tan(strength.friction), room = strength.cohesion - centre * tangent;
+    const double ratio = room / radius, square = ratio * ratio - tangent * tangent;
+    return room > 0.0 && square > 0.0 ? std::sqrt(square) : 0.0;
+  }
+  double low = 0.0, high = 1e3;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = low > 0.0 ? std::sqrt(low * high) : 1e-3;
+    if (low == 0.0) low = 1e-6;
+    const Strength s = strength.reduced(middle).in_plane();
+    (radius <= s.cohesion * std::cos(s.friction) - centre * std::sin(s.friction) ? low : high) = middle;
+  }
+  return low;
+}
+
+// Largest F for which a stress field stays within c / F and tan(phi) / F.
+double factor_of(const Domain& domain, const BoundProgram& program, const Eigen::Matrix3Xd& sigma) {
+  double factor = 1e300;
+  for (std::size_t t = 0; t < domain.triangles.size(); ++t) {
+    const Strength& soil = domain.soils[at(domain.triangles[t].soil)].strength;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (program.stress_free[3 * t + i]) continue;
+      const Vector3 s = program.units.stress * sigma.col(static_cast<Eigen::Index>(3 * t + i));
+      const double radius = std::hypot(0.5 * (s[0] - s[1]), s[2]);
+      if (radius > 1e-14 * program.units.stress)
+        factor = std::min(factor, factor_of(soil, radius, 0.5 * (s[0] + s[1])));
+    }
+  }
+  auto point = static_cast<Eigen::Index>(3 * domain.triangles.size());
+  for (const Joint& joint : domain.joints)
+    for (int end = 0; end < 2; ++end, ++point) {
+      const Vector3 s = program.units.stress * sigma.col(point);
+      const double room = joint.lower_cohesion - s[0] * std::tan(joint.strength.friction);
+      if (room < 0.0) return 0.0;
+      if (s[1] != 0.0) factor = std::min(factor, room / std::abs(s[1]));
+    }
+  return factor;
+}
+
+// Root of a function that falls with F: t > 0 below it.
+class FactorRoot {
+ public:
+  explicit FactorRoot(const Options& options) : options_(options) {}
+  void take(double factor, double t) {
+    const bool stable = t >= 0.0;
+    (stable ? low_ : high_) = {factor, t};
+    (stable ? has_low_ : has_high_) = true;
+    if (has_low_ && has_high_ && stable == last_stable_ && tries_ > 0)  // Illinois
+      (stable ? high_ : low_).t *= 0.5;
+    last_stable_ = stable;
+    ++tries_;
+  }
+  bool found() const {
+    return has_low_ && has_high_ && high_.factor - low_.factor <= options_.tolerance * low_.factor;
+  }
+  bool exhausted() const {
+    return tries_ >= 14 || (!has_high_ && low_.factor >= options_.largest) ||
+           (!has_low_ && high_.factor <= options_.smallest);
+  }
+  // t is about a (1 / F - 1 / root): its secant in 1 / F.
+  double next(double slope) const {
+    const double step = 0.3 * options_.tolerance;
+    if (has_low_ && has_high_) {
+      const double a = 1.0 / low_.factor, b = 1.0 / high_.factor;
+      const double root = 1.0 / (a + (b - a) * low_.t / (low_.t - high_.t));
+      const double narrow = step * root;
+      // Near the root the next trial lies on the other side of it.
+      return std::clamp(root + (last_stable_ ? narrow : -narrow), low_.factor + 0.2 * narrow,
+                        high_.factor - 0.2 * narrow);
+    }
+    const Trial& last = has_low_ ? low_ : high_;
+    const double inverse = 1.0 / last.factor - last.t / slope;
+    const double guess = inverse > 0.0 ? 1.0 / inverse : 2.0 * last.factor;
+    const double beyond = guess * (1.0 + (has_low_ ? 0.01 : -0.01));
+    return std::clamp(std::clamp(beyond, 0.5 * last.factor, 2.0 * last.factor), options_.smallest,
+                      options_.largest);
+  }
+  double stable() const { return has_low_ ? low_.factor : options_.smallest; }
+
+ private:
+  struct Trial {
+    double factor = 1.0, t = 0.0;
+  };
+  const Options& options_;
+  Trial low_, high_;
+  bool has_low_ = false, has_high_ = false, last_stable_ = false;
+  int tries_ = 0;
+};
+
+// Mean strength of the program with F = 1: what t is of at most.
+double mean_strength(const ConeProgram& program, const Eigen::Matrix3Xd& s) {
+  double sum = 0.0, weight = 0.0;
+  for (std::size_t c = 0; c < program.cones.size(); ++c) {
+    if (program.cones[c].h1[0] == 0.0) continue;
+    sum += s(0, static_cast<Eigen::Index>(c));
+    weight -= program.cones[c].h1[0];
+  }
+  return weight > 0.0 ? std::max(sum / weight, 1e-6) : 1.0;
+}
+
+Solved bound_factor(const Domain& domain, const Edges& edges, Side side, const Options& options, double start,
+                    Bound& bound) {
+  FactorRoot root(options);
+  Solved best;
+  double factor = start;
+  while (!root.found() && !root.exhausted()) {
+    Solved one = solve_one(reduced(domain, factor), edges, Quantity::strength, side, options);
+    count(bound, one);
+    if (!one.solved()) {
+      if (!bound.value) bound.reason = reason_of(one, side, Quantity::strength);
+      if (bound.value || one.solution.status == ConeStatus::stopped) break;
+      return one;
+    }
+    const double t = side == Side::primal ? one.solution.tau : one.check.value;
+    if (one.check.passed()) {
+      const double here = side == Side::primal ? factor_of(domain, one.program, one.solution.sigma) : factor;
+      const bool better = !bound.value || (side == Side::primal ? here > *bound.value : here < *bound.value);
+      if (better && (side == Side::primal ? here > 0.0 : t <= 0.0)) {
+        bound.value = here;
+        keep_check(bound, one);
+        best = one;
+      }
+    }
+    root.take(factor, t);
+    factor = root.next(2.0 * mean_strength(one.program.program, one.solution.s));
+    if (!best.solved()) best = std::move(one);
+  }
+  if (!bound.value && bound.reason.empty())
+    bound.reason = root.exhausted() ? "no factor in the range that is searched proves it"
+                                    : reason_of(best, side, Quantity::strength);
+  if (bound.value) bound.margin = std::abs(root.stable() / *bound.value - 1.0);
+  return best;
+}
+
+// ---- refining
+
+// s z by triangle: where stresses off yield meet strain rates, the bounds part.
+std::vector<double> gap_by_triangle(const Domain& domain, const Solved& lower, const Solved& upper) {
+  std::vector<double> gap(domain.triangles.size(), 0.0);
+  for (std::size_t t = 0; t < gap.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto k = static_cast<Eigen::Index>(3 * t + i);
+      if (lower.program.stress_free[3 * t + i]) continue;
+      gap[t] += std::max(0.0, lower.solution.s.col(k).dot(upper.solution.z.col(k)));
+    }
+  return gap;
+}
+
+// The triangles with most of the gap, at most so many.
+std::vector<char> mark(const std::vector<double>& gap, int most) {
+  constexpr double kShare = 0.6;
+  std::vector<int> order(gap.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order,
+                    [&](int a, int b) { return gap[at(a)] != gap[at(b)] ? gap[at(a)] > gap[at(b)] : a < b; });
+  const double total = std::accumulate(gap.begin(), gap.end(), 0.0);
+  std::vector<char> marked(gap.size(), 0);
+  double sum = 0.0;
+  for (int i = 0; i < most && i < static_cast<int>(order.size()) && sum < kShare * total; ++i) {
+    marked[at(order[at(i)])] = 1;
+    sum += gap[at(order[at(i)])];
+  }
+  return marked;
+}
+
+void keep_fields(Bounds& all, const Solved& lower, const Solved& upper) {
+  all.stress.resize(3, 0);
+  all.velocity.resize(2, 0);
+  all.gap.clear();
+  const auto points = static_cast<Eigen::Index>(3 * all.domain.triangles.size());
+  if (lower.solved() && all.lower.value) {
+    all.stress = lower.program.units.stress * lower.solution.sigma.leftCols(points);
+    for (Eigen::Index k = 0; k < points; ++k)
+      if (lower.program.stress_free[static_cast<std::size_t>(k)]) all.stress.col(k).setZero();
+  }
+  if (upper.solved() && all.upper.value) {
+    const std::vector<int>& place = upper.program.velocity;
+    all.velocity.setZero(2, static_cast<Eigen::Index>(place.size() / 2));
+    for (std::size_t i = 0; i < place.size(); ++i)
+      if (place[i] >= 0)
+        all.velocity(static_cast<Eigen::Index>(i % 2), static_cast<Eigen::Index>(i / 2)) =
+            upper.program.share[i] * upper.solution.u[place[i]];
+    const double size = all.velocity.cwiseAbs().maxCoeff();
+    if (size > 0.0) all.velocity /= size;
+  }
+  if (lower.solved() && upper.solved()) all.gap = gap_by_triangle(all.domain, lower, upper);
+}
+
+void solve_round(Bounds& all, const Options& options, bool last, double& factor) {
+  all.edges = edges_of(all.domain);
+  all.lower = all.upper = {};
+  Solved lower, upper;
+  if (options.quantity == Quantity::load) {
+    lower = bound_load(all.domain, all.edges, Side::primal, options, all.lower);
+    upper = bound_load(all.domain, all.edges, Side::dual, options, all.upper);
+  } else {
+    // What a coarse mesh is refined for needs no more than a rough factor.
+    Options rough = options;
+    if (!last) rough.tolerance = std::max(0.005, options.tolerance);
+    lower = bound_factor(all.domain, all.edges, Side::primal, rough, factor, all.lower);
+    if (all.lower.value) factor = *all.lower.value * 1.005;
+    upper = bound_factor(all.domain, all.edges, Side::dual, rough, factor, all.upper);
+    if (all.upper.value && all.lower.value) factor = 0.5 * (*all.lower.value + *all.upper.value);
+  }
+  all.stopped = lower.solution.status == ConeStatus::stopped || upper.solution.status == ConeStatus::stopped;
+  keep_fields(all, lower, upper);
+  all.rounds.push_back({static_cast<int>(all.domain.triangles.size()), all.lower.value, all.upper.value});
+}
+
+}  // namespace
+
+std::optional<double> Bounds::relative_gap() const {
+  if (!lower.value || !upper.value) return {};
+  return (*upper.value - *lower.value) / std::max(1e-300, 0.5 * std::abs(*upper.value + *lower.value));
+}
+
+Domain reduced(Domain domain, double factor) {
+  for (Soil& soil : domain.soils) soil.strength = soil.strength.reduced(factor);
+  for (Joint& joint : domain.joints) {
+    joint.strength = joint.strength.reduced(factor);
+    joint.lower_cohesion /= factor;
+  }
+  return domain;
+}
+
+Bounds find_bounds(const Domain& domain, const Options& options) {
+  constexpr double kGrowth = 1.5;  // of the number of triangles from mesh to mesh, about
+  Bounds all;
+  all.domain = domain;
+  if (options.elements > 0) fan_out(all.domain, 2);
+  double factor = 1.0;
+  for (bool last = static_cast<int>(all.domain.triangles.size()) >= options.elements;;) {
+    solve_round(all, options, last, factor);
+    const auto gap = all.relative_gap();
+    if (last || all.stopped || all.gap.empty()) break;
+    if (gap && *gap <= options.gap && options.quantity == Quantity::load) break;
+    const int now = static_cast<int>(all.domain.triangles.size());
+    // A marked triangle makes two or three more.
+    const int most =
+        std::max(1, static_cast<int>(std::min(kGrowth * now, 1.0 * options.elements) - now) / 2 + 1);
+    refine(all.domain, mark(all.gap, most));
+    last = static_cast<int>(all.domain.triangles.size()) >= 0.95 * options.elements ||
+           (gap && *gap <= options.gap);
+  }
+  return all;
+}
+
+}  // namespace sage::bounds

@@ -1,0 +1,223 @@
+#include "sage/bounds/bounds_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "sage/draw/colour_map.hpp"
+#include "sage/draw/svg.hpp"
+
+namespace sage::bounds {
+
+namespace {
+
+auto to(std::string& text) {
+  return std::back_inserter(text);
+}
+
+std::string words_of(const std::optional<double>& value) {
+  return value ? fmt::format("{:.6g}", *value) : "-";
+}
+
+std::string bound_line(const char* name, const Bound& bound, const char* reserve) {
+  if (!bound.value) return fmt::format("  {}  none: {}\n", name, bound.reason);
+  return fmt::format("  {}  {:<12.7g}margin {:.1e}, residual {:.1e}, {} {:.1e}; {} programs, {} iterations\n",
+                     name, *bound.value, bound.margin, bound.residual, reserve, bound.reserve, bound.solved,
+                     bound.iterations);
+}
+
+std::string title_of(const Model& model) {
+  return model.title.empty() ? model.file : model.title;
+}
+
+// ---- the picture
+
+struct Frame {
+  Vector2 low = Vector2::Constant(1e300), high = Vector2::Constant(-1e300);
+  double scale = 1.0, left = 0.0, top = 0.0;
+
+  Frame(const Domain& domain, double width, double left_px, double top_px) : left(left_px), top(top_px) {
+    for (const Vector2& x : domain.x) {
+      low = low.cwiseMin(x);
+      high = high.cwiseMax(x);
+    }
+    scale = width / std::max(high.x() - low.x(), 1e-300);
+    scale = std::min(scale, 420.0 / std::max(high.y() - low.y(), 1e-300));
+  }
+  double height() const { return scale * (high.y() - low.y()); }
+  double width() const { return scale * (high.x() - low.x()); }
+  Vector2 place(const Vector2& x) const {
+    return {left + scale * (x.x() - low.x()), top + scale * (high.y() - x.y())};
+  }
+};
+
+void add_triangle(std::string& out, const Frame& frame, const std::array<Vector2, 3>& x,
+                  const std::string& colour) {
+  out += "<path d=\"M";
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector2 p = frame.place(x[i]);
+    if (i > 0) out += "L";
+    svg::number(out, p.x());
+    out += " ";
+    svg::number(out, p.y());
+  }
+  fmt::format_to(to(out), "Z\" fill=\"{0}\" stroke=\"#555555\" stroke-width=\"0.2\"/>\n", colour);
+}
+
+std::array<Vector2, 3> corners(const Domain& domain, const Triangle& t) {
+  std::array<Vector2, 3> x;
+  for (std::size_t i = 0; i < 3; ++i) x[i] = domain.x[static_cast<std::size_t>(t.node[i])];
+  return x;
+}
+
+// Radius of Mohr's circle over that at yield with the strengths divided by F, in the mean of the corners.
+double mobilised(const Domain& domain, const Bounds& found, std::size_t t, double factor) {
+  const Strength s =
+      domain.soils[static_cast<std::size_t>(domain.triangles[t].soil)].strength.reduced(factor).in_plane();
+  const double phi = s.friction, c = s.cohesion;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector3 sigma = found.stress.col(static_cast<Eigen::Index>(3 * t + i));
+    const double radius = std::hypot(0.5 * (sigma[0] - sigma[1]), sigma[2]),
+                 most = c * std::cos(phi) - 0.5 * (sigma[0] + sigma[1]) * std::sin(phi);
+    sum += most > 0.0 ? std::min(radius / most, 1.0) : (radius > 0.0 ? 1.0 : 0.0);
+  }
+  return sum / 3.0;
+}
+
+// Largest shear strain rate of the velocities at a triangle's corners, taken linear between them.
+double shear_rate(const Domain& domain, const Bounds& found, const Triangle& t) {
+  const auto x = corners(domain, t);
+  const double area = 2.0 * domain.area(t);
+  double xx = 0.0, yy = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vector2 side = x[(i + 2) % 3] - x[(i + 1) % 3], g(-side.y() / area, side.x() / area);
+    const Vector2 v = found.velocity.col(t.node[i]);
+    xx += g.x() * v.x();
+    yy += g.y() * v.y();
+    xy += g.y() * v.x() + g.x() * v.y();
+  }
+  return std::hypot(xx - yy, xy);
+}
+
+void draw_stress(std::string& out, const Frame& frame, const Bounds& found, double factor) {
+  for (std::size_t t = 0; t < found.domain.triangles.size(); ++t)
+    add_triangle(out, frame, corners(found.domain, found.domain.triangles[t]),
+                 hex(viridis(mobilised(found.domain, found, t, factor))));
+}
+
+void draw_mechanism(std::string& out, const Frame& frame, const Bounds& found) {
+  std::vector<double> rate;
+  for (const Triangle& t : found.domain.triangles) rate.push_back(shear_rate(found.domain, found, t));
+  std::vector<double> sorted = rate;
+  std::ranges::sort(sorted);
+  const double most = std::max(sorted[(sorted.size() - 1) * 95 / 100], 1e-300);
+  const double moved = 0.05 * std::max(frame.high.x() - frame.low.x(), frame.high.y() - frame.low.y());
+  for (std::size_t t = 0; t < rate.size(); ++t) {
+    auto x = corners(found.domain, found.domain.triangles[t]);
+    for (std::size_t i = 0; i < 3; ++i) x[i] += moved * found.velocity.col(found.domain.triangles[t].node[i]);
+    add_triangle(out, frame, x, hex(viridis(std::sqrt(rate[t] / most))));
+  }
+}
+
+}  // namespace
+
+std::string quantity_words(const Domain& domain, Quantity quantity) {
+  if (quantity == Quantity::strength) return "factor of safety";
+  return domain.moved() ? "force at the supports that move" : "load multiplier";
+}
+
+std::string bracket_words(const Bounds& found) {
+  if (found.lower.value && found.upper.value)
+    return fmt::format("between {:.7g} and {:.7g}", *found.lower.value, *found.upper.value);
+  if (found.lower.value) return fmt::format("above {:.7g}", *found.lower.value);
+  if (found.upper.value) return fmt::format("below {:.7g}", *found.upper.value);
+  return "not bounded";
+}
+
+std::string to_text(const Model& model, const Ground& ground, Quantity quantity, const Bounds& found,
+                    const std::vector<OtherAnswer>& others) {
+  std::string text =
+      fmt::format("{}: {}\nbounds by limit analysis: flow associated (psi = phi), small displacements\n",
+                  model.file, model.title);
+  for (const std::string& soil : ground.soils) fmt::format_to(to(text), "  material {}\n", soil);
+  for (const std::string& note : ground.notes) fmt::format_to(to(text), "  note: {}\n", note);
+  fmt::format_to(to(text), "{:>10}{:>14}{:>14}{:>10}\n", "triangles", "lower", "upper", "gap %");
+  for (const Round& round : found.rounds) {
+    const bool both = round.lower && round.upper;
+    const double gap =
+        both ? 200.0 * (*round.upper - *round.lower) / std::abs(*round.upper + *round.lower) : 0.0;
+    fmt::format_to(to(text), "{:>10}{:>14}{:>14}{:>10}\n", round.triangles, words_of(round.lower),
+                   words_of(round.upper), both ? fmt::format("{:.2f}", gap) : "-");
+  }
+  fmt::format_to(to(text), "{} {}\n", quantity_words(found.domain, quantity), bracket_words(found));
+  text += bound_line("lower", found.lower, "least reserve to yield");
+  text += bound_line("upper", found.upper, "least reserve of dilation");
+  for (const OtherAnswer& other : others) fmt::format_to(to(text), "  {:<32}{}\n", other.name, other.words);
+  return text;
+}
+
+std::string to_csv(const Bounds& found, int digits) {
+  std::string text = "triangles,lower,upper\n";
+  for (const Round& round : found.rounds) {
+    const auto number = [&](const std::optional<double>& v) {
+      return v ? fmt::format("{:.{}g}", *v, digits) : "";
+    };
+    fmt::format_to(to(text), "{},{},{}\n", round.triangles, number(round.lower), number(round.upper));
+  }
+  return text;
+}
+
+std::string fields_csv(const Bounds& found, int digits) {
+  std::string text = "triangle,x,y,stress_xx,stress_yy,stress_xy,velocity_x,velocity_y\n";
+  for (std::size_t t = 0; t < found.domain.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int node = found.domain.triangles[t].node[i];
+      const Vector2& x = found.domain.x[static_cast<std::size_t>(node)];
+      fmt::format_to(to(text), "{},{:.{}g},{:.{}g}", t + 1, x.x(), digits, x.y(), digits);
+      if (found.stress.cols() > 0) {
+        const Vector3 s = -found.stress.col(static_cast<Eigen::Index>(3 * t + i));
+        fmt::format_to(to(text), ",{:.{}g},{:.{}g},{:.{}g}", s[0], digits, s[1], digits, s[2], digits);
+      } else {
+        text += ",,,";
+      }
+      if (found.velocity.cols() > 0)
+        fmt::format_to(to(text), ",{:.{}g},{:.{}g}\n", found.velocity(0, node), digits, found.velocity(1, node),
+                       digits);
+      else
+        text += ",,\n";
+    }
+  return text;
+}
+
+std::string fields_svg(const Model& model, Quantity quantity, const Bounds& found,
+                       const std::vector<OtherAnswer>& others) {
+  constexpr double kPanel = 620.0, kEdge = 30.0, kTop = 96.0;
+  const Frame left(found.domain, kPanel, kEdge, kTop);
+  const double step = left.width() + 2.0 * kEdge;
+  const Frame right(found.domain, kPanel, kEdge + step, kTop);
+  const double bottom = kTop + left.height() + kEdge;
+  std::string out = svg::open(static_cast<int>(2.0 * step + kEdge),
+                              static_cast<int>(bottom + 20.0 * static_cast<double>(others.size()) + 20.0));
+  svg::text_within(out, kEdge, 24.0, title_of(model), svg::kTitleFont, 2.0 * step, "start", svg::kBold);
+  svg::text(out, kEdge, 46.0, quantity_words(found.domain, quantity) + " " + bracket_words(found), svg::kFont,
+            "start");
+  svg::text_within(out, kEdge, 76.0,
+                   "lower bound " + words_of(found.lower.value) + ": strength mobilised, 0 to 1", svg::kFont,
+                   left.width() + kEdge, "start");
+  svg::text_within(out, kEdge + step, 76.0,
+                   "upper bound " + words_of(found.upper.value) + ": mechanism, rate of shear strain",
+                   svg::kFont, left.width() + kEdge, "start");
+  const double factor =
+      quantity == Quantity::strength && found.lower.value ? std::max(*found.lower.value, 1e-6) : 1.0;
+  if (found.stress.cols() > 0) draw_stress(out, left, found, factor);
+  if (found.velocity.cols() > 0) draw_mechanism(out, right, found);
+  for (std::size_t i = 0; i < others.size(); ++i)
+    svg::text(out, kEdge, bottom + 20.0 * static_cast<double>(i), others[i].name + ": " + others[i].words,
+              svg::kFont, "start");
+  return out + std::string(svg::kClose);
+}
+
+}  // namespace sage::bounds
