@@ -1,5 +1,7 @@
 #include "sage/bounds/bounds.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -346,6 +348,14 @@ void solve_round(Bounds& all, const Options& options, bool last, double& factor)
     if (all.upper.value && all.lower.value) factor = 0.5 * (*all.lower.value + *all.upper.value);
   }
   all.stopped = lower.solution.status == ConeStatus::stopped || upper.solution.status == ConeStatus::stopped;
+  // Rounding cannot make them cross; a fault of the mesh or of the program can.
+  if (all.lower.value && all.upper.value &&
+      *all.lower.value > *all.upper.value + 1e-6 * std::abs(*all.upper.value)) {
+    const std::string reason = fmt::format("the fields contradict each other: lower {:.6g} above upper {:.6g}",
+                                           *all.lower.value, *all.upper.value);
+    all.lower = all.upper = {};
+    all.lower.reason = all.upper.reason = reason;
+  }
   keep_fields(all, lower, upper);
   all.rounds.push_back({static_cast<int>(all.domain.triangles.size()), all.lower.value, all.upper.value});
 }
