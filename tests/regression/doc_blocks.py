@@ -50,6 +50,7 @@ NOT_HERE = {
     "sagefe verify ": "all cases: tests/verification; the page: scripts/pictures",
     "sagefe safety slope.dat --converge": "minutes; tests/regression/safety_test.cpp converges a smaller deck",
     "sagefe drive --law clough_duncan ...": "an outline",
+    "sagefe drive --law modified_cam_clay": "curves of the reader; tests/unit/drive fits several tests together",
     "sagefe check old.dat --layout ./old.toml": "the draft has to be finished by hand first; tests/unit/layout_draft",
 }
 HERE = ("--list", "--only lame", "--only poisson")  # of those all the same

@@ -115,7 +115,7 @@ TEST(NewDeck, DiagramsOfLiningsAreDrawnOutwards) {
   const std::string svg = read(folder / "out/culvert_stage5_axial_force.svg");
   const std::size_t mark = svg.find("fill-opacity=\"0.25\" d=\"");
   ASSERT_NE(mark, std::string::npos) << svg.substr(0, 500);
-  const std::string path = svg.substr(mark + 22, svg.find('"', mark + 22) - mark - 22);
+  const std::string path = svg.substr(mark + 23, svg.find('"', mark + 23) - mark - 22);
   std::vector<std::array<double, 2>> points;  // of each element two on the pipe, then two of the diagram
   for (std::size_t at = 0; at < path.size(); ++at)
     if (path[at] == 'M' || path[at] == 'L') {
