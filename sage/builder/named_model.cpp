@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "sage/core/short_names.hpp"
@@ -277,6 +279,23 @@ void NamedModel::set(const NamedValue& value) {
       put(where.cards[i], where.fields[i], where.in_list, number);
     else if (!Deck::is_blank(old))
       put(where.cards[i], where.fields[i], where.in_list, old * number);
+  }
+}
+
+void NamedModel::expect_apart(const std::vector<std::string>& names) const {
+  using Spot = std::tuple<int, std::string, int>;
+  std::map<Spot, std::string> taken;
+  for (const std::string& name : names) {
+    std::vector<Spot> spots{{-1, name, 0}};
+    if (std::ranges::find(kOptions, name) == std::end(kOptions)) {
+      const Place& where = place(name);
+      spots.clear();
+      for (std::size_t i = 0; i < where.cards.size(); ++i)
+        spots.emplace_back(where.cards[i], where.fields[i], where.in_list);
+    }
+    for (const Spot& spot : spots)
+      if (const auto [found, is_new] = taken.try_emplace(spot, name); !is_new)
+        fail("S731", fmt::format("{} and {} change the same number of the deck", found->second, name));
   }
 }
 

@@ -32,6 +32,8 @@ class NamedModel {
   void check(const NamedValue& value) const;
   // The number that has this name; NaN where the deck leaves it blank, or it is a text.  Throws InputError (S730).
   double get(const std::string& name) const;
+  // Throws InputError (S731) where two of the names mean the same number, or one is a part of the other.
+  void expect_apart(const std::vector<std::string>& names) const;
   // All names: materials by number and by name.
   std::vector<std::string> names() const;
 

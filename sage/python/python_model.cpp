@@ -298,6 +298,9 @@ PythonModel PythonModel::from_input(const py::object& object) {
 }
 
 PythonModel PythonModel::with_values(const std::vector<NamedValue>& values) const {
+  std::vector<std::string> names;
+  for (const NamedValue& value : values) names.push_back(value.name);
+  named_.expect_apart(names);
   NamedModel other = named_;
   for (const NamedValue& value : values) other.set(value);
   return {std::move(other), catalogue_};

@@ -115,6 +115,9 @@ void Sweep::find_quantities() {
 
 // All of them, so that none waits for its case.
 void Sweep::check_values() const {
+  std::vector<std::string> all = study_.names;
+  for (const NamedValue& value : study_.fixed) all.push_back(value.name);
+  named_.expect_apart(all);
   for (std::size_t name = 0; name < study_.names.size(); ++name) {
     named_.get(study_.names[name]);  // known?
     for (std::size_t index = 0; index < study_.cases.size(); ++index) {

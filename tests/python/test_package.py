@@ -149,6 +149,7 @@ def test_with_other_values():
     ({"material.1.nu": float("nan")}, "S731", "finite"),
     ({"geometry": "plane"}, "S731", "plane_strain or axisymmetric"),
     ({"formulation": "bbar"}, "S731", "b-bar"),
+    ({"material.1.nu": 0.3, "material.elastic specimen.poissons_ratio": 0.2}, "S731", "the same number"),
     ({"material.1.nu": 0.6}, "S224", "with material.1.nu = 0.6"),
 ])
 def test_values_that_can_not_be_meant(values, code, words):

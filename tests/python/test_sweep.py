@@ -158,6 +158,7 @@ def test_warnings_that_the_deck_has_not_are_failures(tmp_path):
     ('[grid]\n"material.1.nus" = [0.2, 0.3]\n', "S730", "did you mean material.1.nu"),
     ('[grid]\n"material.1.nu" = [0.2, "0.3"]\n', "S731", "finite number"),
     ('[grid]\n"stage.2.increments" = [1, 2.5]\n', "S731", "whole number"),
+    ('[grid]\n"material.1.nu" = [0.2, 0.3]\n"material.1.poissons_ratio" = [0.2, 0.3]\n', "S731", "the same number"),
     ('[grid]\n"material.1.nu" = []\n', "S732", "list of values"),
     ('[gird]\n"material.1.nu" = [0.2]\n', "S732", "did you mean grid"),
     ('[set]\n"material.1.nu" = 0.2\n', "S732", "no case"),
