@@ -278,7 +278,8 @@ std::string case_name(const std::string& path) {
   std::filesystem::path p = std::filesystem::path(path).lexically_normal();
   if (p.parent_path().filename() == "..") p = std::filesystem::absolute(p).lexically_normal();
   if (p.stem() == "deck" && !p.parent_path().filename().empty()) return p.parent_path().filename().string();
-  return p.stem().string();
+  const std::string name = p.stem().string();
+  return is_model_file(path) ? name.substr(0, name.size() - 5) : name;  // without .sage
 }
 
 }  // namespace sage::app

@@ -80,7 +80,7 @@ void require_file(const std::string& path, const std::string& who);
 // whole_layout: a layout file without what a model needs, or with names that nothing uses, is refused.
 Deck read_input(const std::string& path, const InputOptions& options, bool whole_layout = true);
 
-// "case" for .../case/deck.dat, otherwise the file's name without its ending.
+// "case" for .../case/deck.dat, otherwise the file's name without its ending (.sage.toml of a model file).
 std::string case_name(const std::string& path);
 
 }  // namespace sage::app

@@ -490,6 +490,8 @@ class Upper {
     }
     const Vector2 both_fixed = fixed[0] + fixed[1], both_live = live[0] + live[1];
     for (int axis = 0; axis < 2; ++axis) {
+      // What acts on a held side goes into its support: the force at supports that move is that of the ground on them.
+      if (boundary != nullptr && boundary->held[at(axis)]) continue;
       build_.add_load(row(edge.a, axis), length / 6.0 * fixed[0][axis], length / 6.0 * live[0][axis]);
       build_.add_load(row(edge.b, axis), length / 6.0 * fixed[1][axis], length / 6.0 * live[1][axis]);
       build_.add_load(row(middle(e), axis), length / 3.0 * both_fixed[axis], length / 3.0 * both_live[axis]);

@@ -58,6 +58,15 @@ TEST(Bounds, StripOnWeightlessSand) {
   EXPECT_NEAR(0.5 * (*found.lower.value + *found.upper.value), 30.1396, 0.015 * 30.1396);
 }
 
+// N_q = 18.4011 for phi = 30. The surcharge acts on the footing too, whose force is that of the ground.
+TEST(Bounds, SurchargeBesideAndOnAStrip) {
+  Domain d = strip(8.0, 6.0, 8, {{0.0, kPi / 6.0}}, true);
+  along_level(d, 0.0, 1.0, 8.0, [](Boundary& b) { b.fixed = {Vector2(0.0, -1.0), Vector2(0.0, -1.0)}; });
+  for (Boundary& b : d.boundary)
+    if (b.motion[0].y() != 0.0) b.fixed = {Vector2(0.0, -1.0), Vector2(0.0, -1.0)};
+  expect_bracket(find_bounds(d, up_to(800)), 18.4011, 0.1);
+}
+
 // N_gamma of a smooth strip, 7.6530 (similarity solution); without cohesion the surface has no stress.
 TEST(Bounds, WeightOfSandBelowASmoothStrip) {
   expect_bracket(find_bounds(strip(4.0, 2.0, 6, {{0.0, kPi / 6.0}, Vector2(0.0, -1.0)}, false), up_to(600)),

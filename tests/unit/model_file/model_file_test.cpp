@@ -9,9 +9,12 @@
 
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
+#include "sage/analysis/run.hpp"
 #include "sage/builder/build_model.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/model_file/unit_of.hpp"
+#include "sage/record/result.hpp"
+#include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"
 
 namespace sage {
@@ -241,6 +244,84 @@ TEST(ModelFile, AJointIsNotJoinedAtItsEnd) {
     EXPECT_NE(std::string(error.what()).find("line joint: the end of a joint"), std::string::npos)
         << error.what();
   }
+}
+
+// Two layers with nu = 0 between smooth sides settle by p (h1/E1 + h2/E2), whatever the mesh: 80 (1/1e4 + .5/2e4) = .01.
+// A joint that lies across them adds p/k_n = 80/1e5.
+TEST(ModelFile, ADrawnColumnSettlesAsItsClosedForm) {
+  const std::string text = R"(
+title = "column"
+geometry = "plane strain"
+[units]
+length = "m"
+force = "kN"
+stress = "kPa"
+[mesh]
+element = "quad8"
+size = 0.3
+[points]
+top = [1.2, 1.5]
+[[material]]
+name = "lower"
+law = "linear_elastic"
+youngs_modulus = 1e4
+poissons_ratio = 0
+[[material]]
+name = "upper"
+law = "linear_elastic"
+youngs_modulus = "20 MPa"
+poissons_ratio = 0
+[[material]]
+name = "gap"
+law = "goodman"
+shear_stiffness = 1e5
+normal_stiffness = 1e5
+[[line]]
+name = "base"
+points = [[0, 0], [1.2, 0]]
+[[line]]
+name = "left"
+points = [[0, 0], [0, 1.5]]
+[[line]]
+name = "right"
+points = [[1.2, 0], [1.2, 1.5]]
+[[line]]
+name = "surface"
+points = [[0, 1.5], "top"]
+[[line]]
+name = "between"
+points = [[0, 1], [1.2, 1]]
+interface = {material = "gap"}
+[[area]]
+name = "below"
+outline = [[0, 0], [1.2, 0], [1.2, 1], [0, 1]]
+material = "lower"
+[[area]]
+name = "above"
+outline = [[0, 1], [1.2, 1], "top", [0, 1.5]]
+material = "upper"
+[[fixity]]
+line = "base"
+y = "fixed"
+[[fixity]]
+line = "left"
+x = "fixed"
+[[fixity]]
+line = "right"
+x = "fixed"
+[[stage]]
+pressure = [{line = "surface", normal1 = 80, normal2 = 80}]
+[[report]]
+kind = "nodes"
+point = "top"
+)";
+  const Model model = model_of(text);
+  Result result;
+  Observer* observers[] = {&result};
+  const RunResult run = sage::run(model, catalogue(), {.choose_solver = choose_solver}, observers);
+  ASSERT_EQ(run.status, RunStatus::completed) << run.reason;
+  const int top = model.reports[0].nodes[0];
+  EXPECT_NEAR((*result.ends()[0].view().u)[2 * top + 1], -(0.01 + 80.0 / 1e5), 1e-12);
 }
 
 TEST(ModelFile, SchemaAndTablesAreWrittenFromTheKeys) {
