@@ -121,8 +121,10 @@ class InteriorPoint {
   double step_of(const Stresses& from, const Stresses& along) const;
   void advance(const Direction& d, double primal, double dual);
   void advance_velocities(const Direction& d);
+  void settle_strains();
   double centre() const;
-  void iterate_once();
+  void iterate_once(bool keep_centre = false);
+  void correct(const Direction& affine, double mu, Stresses& target) const;
   void mend();
   void measure(ConeSolution& solution) const;
   void fill(ConeSolution& solution) const;
@@ -323,7 +325,8 @@ double InteriorPoint::centre() const {
   return s_.cwiseProduct(z_).sum() / static_cast<double>(std::max<Eigen::Index>(s_.cols(), 1));
 }
 
-void InteriorPoint::iterate_once() {
+// keep_centre: a step to the point of the central path with the same mu, which ends residuals and leaves room.
+void InteriorPoint::iterate_once(bool keep_centre) {
   scale_cones();
   // Weight of a change of stress without influence on yield.  Small: the velocities are exact after fewer steps;
   // large: the stresses are.
@@ -331,26 +334,46 @@ void InteriorPoint::iterate_once() {
   factorise(proximal * z_.row(0).sum() / (1e-300 + s_.row(0).sum()));
   const Residuals r = residuals();
   const Eigen::Index cones = s_.cols();
+  const double mu = centre();
   Stresses target(3, cones);
   for (Eigen::Index c = 0; c < cones; ++c) {
     const Vector3& lambda = scaling_[static_cast<std::size_t>(c)].lambda;
     target.col(c) = -product(lambda, lambda);
   }
-  const Direction affine = direction(r, target);
-  const double ap = std::min(1.0, step_of(s_, affine.s)), ad = std::min(1.0, step_of(z_, affine.z));
-  const double mu = centre();
-  const double after = (s_ + ap * affine.s).cwiseProduct(z_ + ad * affine.z).sum() / static_cast<double>(cones);
-  const double share = std::clamp(std::pow(std::max(after, 0.0) / mu, 3.0), 1e-6, 1.0);
-  for (Eigen::Index c = 0; c < cones; ++c) {
-    const Scaling& scaling = scaling_[static_cast<std::size_t>(c)];
-    target.col(c) -= product(scaling.inverse * affine.s.col(c), scaling.W * affine.z.col(c));
-    target(0, c) += share * mu;
-  }
+  if (keep_centre)
+    target.row(0).array() += mu;
+  else
+    correct(direction(r, target), mu, target);
   const Direction d = direction(r, target);
   const double keep = 0.98;
   const double primal = std::min(1.0, keep * step_of(s_, d.s)), dual = std::min(1.0, keep * step_of(z_, d.z));
   last_step_ = std::min(primal, dual);
   advance(d, primal, dual);
+  settle_strains();
+}
+
+// Mehrotra's second order and centring, from the step that ignores both.
+void InteriorPoint::correct(const Direction& affine, double mu, Stresses& target) const {
+  const double ap = std::min(1.0, step_of(s_, affine.s)), ad = std::min(1.0, step_of(z_, affine.z));
+  const double after = (s_ + ap * affine.s).cwiseProduct(z_ + ad * affine.z).sum() /
+                       static_cast<double>(std::max<Eigen::Index>(s_.cols(), 1));
+  const double share = std::clamp(std::pow(std::max(after, 0.0) / mu, 3.0), 1e-6, 1.0);
+  for (Eigen::Index c = 0; c < target.cols(); ++c) {
+    const Scaling& scaling = scaling_[static_cast<std::size_t>(c)];
+    target.col(c) -= product(scaling.inverse * affine.s.col(c), scaling.W * affine.z.col(c));
+    target(0, c) += share * mu;
+  }
+}
+
+// Removes the rounding that steps have left between velocities and strain rates, before a rate is as small as it.
+void InteriorPoint::settle_strains() {
+  const Stresses e = strains(p_, y_);
+  for (std::size_t c = 0; c < scaling_.size(); ++c) {
+    if (flat_[c]) continue;
+    const auto k = static_cast<Eigen::Index>(c);
+    const Vector3 now = z_.col(k), exact = -left_inverse_[c].transpose() * e.col(k);
+    if ((exact - now).norm() <= 1e-3 * (now[0] - bend(now)) && exact[0] > bend(exact)) z_.col(k) = exact;
+  }
 }
 
 // Where pressure has no influence on yield, z0 follows from the strains: least is their size.
@@ -486,13 +509,16 @@ ConeSolution InteriorPoint::strict_one(std::vector<ConeSolution>& kept) {
   ConeSolution best;
   const int iterations = kept.back().iterations;
   double smallest = 1e300;
-  for (; !kept.empty() && smallest > kRounding; kept.pop_back()) {
+  // Where there is no room at once, steps along the central path make some.
+  for (int centred = 0; !kept.empty() && smallest > kRounding; centred = centred == 2 ? 0 : centred + 1) {
     restore(kept.back());
+    if (centred == 2) kept.pop_back();
+    for (int step = 0; step < 2 * centred; ++step) iterate_once(true);
     mend();
     ConeSolution mended;
     measure(mended);
     const double residual = options_.side == Side::primal ? mended.primal_residual : mended.dual_residual;
-    if (residual >= smallest) continue;
+    if (!(residual < smallest)) continue;
     smallest = residual;
     fill(mended);
     best = std::move(mended);

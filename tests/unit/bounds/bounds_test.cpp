@@ -112,6 +112,30 @@ TEST(Bounds, DoNotDependOnUnits) {
   EXPECT_NEAR(*a.upper.value, *b.upper.value, 1e-4 * *a.upper.value);
 }
 
+// A block on an inclined joint slides at F = (c L + W cos(b) tan(phi)) / (W sin(b)), which the upper field finds.
+TEST(Bounds, BlockOnAJoint) {
+  Domain d = block({0.0, 1.0}, {0.0, 1.0});
+  const Domain above = block({0.0, 1.0}, {1.0, 1.5});
+  const int shift = static_cast<int>(d.x.size());
+  d.x.insert(d.x.end(), above.x.begin(), above.x.end());
+  for (Triangle t : above.triangles) {
+    for (int& n : t.node) n += shift;
+    d.triangles.push_back(t);
+  }
+  const double slope = 0.3, phi = 0.4, weight = 10.0, W = 0.5 * weight;
+  d.joints.push_back(
+      {.first = {3, 2}, .second = {shift, shift + 1}, .strength = {0.2, phi}, .lower_cohesion = 0.2});
+  d.soils = {{{20.0, 0.5}, weight * Vector2(-std::sin(slope), -std::cos(slope))}};
+  for (Boundary& b : d.boundary) b.held = {true, true};
+  const double exact = (0.2 + W * std::cos(slope) * std::tan(phi)) / (W * std::sin(slope));
+  const Bounds found = find_bounds(d, up_to(0, Quantity::strength));
+  ASSERT_TRUE(found.upper.value) << found.upper.reason;
+  EXPECT_NEAR(*found.upper.value, exact, 5e-4 * exact);
+  ASSERT_TRUE(found.lower.value) << found.lower.reason;
+  EXPECT_LE(*found.lower.value, exact * (1.0 + 1e-9));
+  EXPECT_GE(*found.lower.value, 0.9 * exact);
+}
+
 // A layer on a slope without cohesion: infinite slope, tan(phi) / tan(b), here with F below 1.
 TEST(Bounds, SlopeOfSandThatFails) {
   Domain d = block({0.0, 1.0, 2.0, 3.0}, {0.0, 0.25, 0.5});
