@@ -408,9 +408,10 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [group, kind, value, where] = one;
 }
 [[maybe_unused]] void known(const Stage& one) {
-  [[maybe_unused]] const auto& [number, title, increments, duration, method, max_iterations, output_every,
-                                output_at, tolerance, gravity, fixities, loads, field_fixities, field_loads,
-                                exits, pressures, births, deaths, initials, strength_factor, where] = one;
+  [[maybe_unused]] const auto& [number, title, increments, duration, pores, theta, grading, method,
+                                max_iterations, output_every, output_at, tolerance, gravity, fixities, loads,
+                                field_fixities, field_loads, exits, pressures, births, deaths, initials,
+                                strength_factor, where] = one;
 }
 [[maybe_unused]] void known(const NodalLoad& one) {
   [[maybe_unused]] const auto& [node, force, line] = one;
