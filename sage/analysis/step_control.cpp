@@ -96,7 +96,7 @@ bool StepControl::take_increment(StepReport& report) {
     const bool given_up =
         is_trial_ && (step.flows || iterations >= kMostAttempts * run_.stage().max_iterations);
     const bool last = given_up || last_cut || run_.tangent().linear();
-    if (can_relax(last)) {
+    if (can_relax(step, last)) {
       if (relax(report, end)) {
         size = end - state.reached;
         continue;
@@ -217,15 +217,18 @@ void StepControl::start_on_last_way(double size) {
   on_last_way_ = run_.assembly().evaluate(state.du, &run_.tangent()) == Outcome::ok;
 }
 
-// Associated flow leaves Newton's method no cycles.  Where no motion is prescribed, a failure at the shortest step is a limit
+// Newton's method stops near an equilibrium where the set of yielding points cycles; associated flow leaves it no cycles.  Where no motion is prescribed, a failure at the shortest step is a limit
 // load as a rule, and remains one.
-bool StepControl::can_relax(bool last) const {
+bool StepControl::can_relax(const NewtonStep& step, bool last) const {
+  constexpr double kNear = 1e-2;  // relative residual around which corrections that cycle stay
   const Assembly& assembly = run_.assembly();
   if (run_.tangent().linear() || !Relaxation::suits(run_.model) || assembly.dof_map().displacements() == 0)
     return false;
   if (run_.settings.trials != nullptr) return damped_.proves() && !damped_.has_walls();
   const bool fails_here = refused_at_ == run_.state.reached && !last;
-  const bool due = last || run_.state.path.relaxed > 0;
+  const bool cycles = step.outcome == StepOutcome::not_converged && !step.iterations.empty() &&
+                      step.iterations.back().force <= kNear;
+  const bool due = (last && cycles) || run_.state.path.relaxed > 0;
   return due && !fails_here && !assembly.scene().symmetric && !run_.system.rate().isZero(0.0);
 }
 

@@ -43,7 +43,7 @@ class StepControl {
   bool fail(StepReport& report, const NewtonStep& step, double size);
   void reject(double next);
   bool tries_otherwise(const NewtonStep& step, bool went_on, double size);
-  bool can_relax(bool last) const;
+  bool can_relax(const NewtonStep& step, bool last) const;
   bool relax(StepReport& report, double end);
   NewtonStep relax_step(Relaxation& relaxation, StepReport& report, double from, double& to);
   void renew_tangent();

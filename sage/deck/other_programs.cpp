@@ -94,12 +94,6 @@ constexpr Program kPrograms[] = {
     {"9.3", "coupled consolidation along a line",
      "i:nels i:np / r*2*np " SAGE_TYPES(
          "nels") "/ r*nels / r i r i i i / i:nr { n c c }*nr / i:nl / { n r }*nl / i:nt / r*2*nt "},
-    {"9.4 or 9.5", "coupled consolidation",
-     "i:nxe i:nye i:np / r*4*np " SAGE_TYPES(
-         "nxe*nye") "/ r*nxe+nye+2 / r i r i i / i:nr { n c c c }*nr / i:nl / { n r r }*nl "
-                    "/ i:nt / r*2*nt "},
-    {"9.6", "coupled consolidation, elastic-plastic",
-     SAGE_RECTANGLE("7", " r") "r i r i i / i:nr { n c c c }*nr / i:nl / { n r r }*nl / r i i:nt / r*2*nt "},
     {"10.1", "natural frequencies of beams",
      "i:nels i:np / r*2*np " SAGE_TYPES("nels") "/ r*nels / i:nr { n c c }*nr / i "},
     {"10.2", "natural frequencies",

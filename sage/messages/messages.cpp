@@ -1027,11 +1027,10 @@ constexpr MessageEntry kMessages[] = {
      "of the embedment), or by the force on it."},
 
     {"S550", "steps were found by dynamic relaxation",
-     "Where the shortest step of Newton's method finds no equilibrium, sagefe lets the supports move on by a "
-     "small "
-     "elastic step and follows the motion until it comes to rest. The rest is an equilibrium to the tolerance "
-     "of the "
-     "stage, with the history of that motion. Where flow is not associated there may be other equilibria.",
+     "Where the shortest step of Newton's method finds no equilibrium, the supports move on by a small elastic "
+     "step, and the ground moves until it comes to rest. The rest is an equilibrium to the tolerance of the "
+     "stage, "
+     "with the history of that motion. Where flow is not associated there may be other equilibria.",
      "Nothing is to be done. More increments, and a second mesh, show how far the answer depends on the path. "
      "A "
      "dilation angle nearer to friction makes it unique."},

@@ -173,6 +173,8 @@ def check_others(folder):
     expect(safety["complete"] and safety["lower"] < safety["upper"] <= safety["lower"] + 0.05, "bracket", safety["lower"])
     expect(all((folder / file).exists() for file in safety["files"]), "files of a safety factor")
     answer(folder, "safety", DECK, "-o", "out", code=2)
+    bounds = answer(folder, "bounds", str(slope), "--elements", "300", "-o", "out")["result"]
+    expect(bounds["lower"]["value"] <= bounds["upper"]["value"] <= 1.1 * bounds["lower"]["value"], "bounds", bounds)
     (folder / "study.toml").write_text(f'deck = "{SOURCE / "legacy_inputs/chapter7/pinned_ld2_nu0333/deck.dat"}"\ncollect = ["report1.ratio"]\n'
                                        '[grid]\nmaterial.1.nu = [0.2, 0.3]\n[failure]\nwhen = "report1.ratio > 1.02"\n')
     swept = answer(folder, "sweep", "study.toml", "-o", "out")["result"]

@@ -35,7 +35,7 @@ std::string complaint(const std::string& toml) {
 
 TEST(Layout, EveryBuiltInLayoutLoads) {
   const std::vector<std::string> names = built_in_layouts();
-  EXPECT_EQ(names.size(), 21u);
+  EXPECT_EQ(names.size(), 23u);
   for (const std::string& name : names) {
     const Layout layout = load_layout(name);
     EXPECT_EQ(layout.name, name);
@@ -245,10 +245,11 @@ TEST(WideLayout, IsSage1WithWideFields) {
   ASSERT_EQ(wide.cards.size(), narrow.cards.size());
   for (std::size_t i = 0; i < wide.cards.size(); ++i) {
     const std::string& key = narrow.cards[i].key;
-    const std::size_t more = key == "element" ? 7 : key == "stage" ? 2 : 0;
+    const std::size_t more = key == "element" ? 7 : key == "stage" ? 5 : key == "group" ? 1 : 0;
     EXPECT_EQ(wide.cards[i].spec.fields.size(), narrow.cards[i].spec.fields.size() + more);
     std::string format = wide_format(narrow.cards[i].spec.format);
-    if (more > 0) format.insert(format.size() - 1, more == 7 ? ",7I10" : ",2F20.0");
+    if (more > 0)
+      format.insert(format.size() - 1, more == 7 ? ",7I10" : more == 1 ? ",I10" : ",2F20.0,I10,2F20.0");
     EXPECT_EQ(wide.cards[i].spec.format, format);
   }
   EXPECT_NE(layout_manual(wide).find("| 31-50 | `x` | real | x or radius | length |"), std::string::npos);

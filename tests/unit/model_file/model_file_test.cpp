@@ -152,12 +152,12 @@ const Broken kBroken[] = {
     {"law = \"linear_elastic\"", "law = \"linear_plastic\"", 17, "S153", "did you mean linear_elastic?"},
     {"law = \"linear_elastic\"\n", "", 15, "S155", "needs its law"},
     {"youngs_modulus = ", "young_modulus = ", 19, "S151", "did you mean youngs_modulus?"},
-    {"poissons_ratio = 0.0", "poissons_ratio = 0.5", 20, "S223", "ratio"},
+    {"poissons_ratio = 0.0", "poissons_ratio = 0.5", 20, "S224", "ratio"},
     {"element = \"quad4\"", "element = \"quad5\"", 24, "S153", "did you mean quad4?"},
     {"formulation = \"b-bar\"", "formulation = \"bbar\"", 25, "S153", "did you mean b-bar?"},
     {"material = \"clay\"", "material = \"sand\"", 26, "S153", "no [[material]]"},
     {"increments = 2", "increments = \"two\"", 30, "S152", "whole number"},
-    {"edge = 3", "edge = 5", 31, "S205", "edge"},
+    {"edge = 3", "edge = 5", 31, "S230", "edge"},
     {"kind = \"point\"", "kind = \"pont\"", 34, "S153", "did you mean point?"},
     {"y = 1.0\nname", "y = inf\nname", 36, "S152", "not finite"},
 };
@@ -318,7 +318,9 @@ point = "top"
   const Model model = model_of(text);
   Result result;
   Observer* observers[] = {&result};
-  const RunResult run = sage::run(model, catalogue(), {.choose_solver = choose_solver}, observers);
+  RunSettings settings;
+  settings.choose_solver = choose_solver;
+  const RunResult run = sage::run(model, catalogue(), settings, observers);
   ASSERT_EQ(run.status, RunStatus::completed) << run.reason;
   const int top = model.reports[0].nodes[0];
   EXPECT_NEAR((*result.ends()[0].view().u)[2 * top + 1], -(0.01 + 80.0 / 1e5), 1e-12);
