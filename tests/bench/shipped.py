@@ -50,7 +50,7 @@ def skips(bench):
     rows = []
     decks = ("friction_285_nu0495", "dp_285", "pinned_ld2_nu025")
     for deck in decks[-1:] if bench.args.quick else decks:
-        jobs = [run_job(bench, (deck, name), chapter_deck(deck), *(["--without", name] if name else [])) for name in ["", *names]]
+        jobs = [run_job(bench, (deck, name), chapter_deck(deck), "-v", *(["--without", name] if name else [])) for name in ["", *names]]
         records = bench.turns(jobs, strict=True)
         full = records[(deck, "")].wall
         rows += [skip_row(deck, name, records[(deck, name)], full) for name in ["", *names]]
