@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kExact = 1e-11;  // residuals below are rounding
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 // What the check of one field found.
 struct Check {
   double residual = 0.0, reserve = 0.0;
@@ -296,8 +292,8 @@ std::vector<char> mark(const std::vector<double>& gap, int most) {
   constexpr double kShare = 0.6;
   std::vector<int> order(gap.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::sort(order,
-                    [&](int a, int b) { return gap[at(a)] != gap[at(b)] ? gap[at(a)] > gap[at(b)] : a < b; });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return gap[at(a)] != gap[at(b)] ? gap[at(a)] > gap[at(b)] : a < b; });
   const double total = std::accumulate(gap.begin(), gap.end(), 0.0);
   std::vector<char> marked(gap.size(), 0);
   double sum = 0.0;

@@ -10,10 +10,6 @@ namespace sage::bounds {
 
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 std::pair<int, int> pair_of(int a, int b) {
   return {std::min(a, b), std::max(a, b)};
 }

@@ -9,6 +9,11 @@
 
 namespace sage::bounds {
 
+// Of lists that are counted in int.
+inline std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
 using Vector2 = Eigen::Vector2d;
 
 // The law that cohesion and friction belong to: Mohr-Coulomb, or a Drucker-Prager cone by the number of its match

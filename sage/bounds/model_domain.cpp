@@ -17,10 +17,6 @@ namespace sage::bounds {
 
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 using Key = std::pair<int, int>;
 Key key_of(int a, int b) {
   return {std::min(a, b), std::max(a, b)};

@@ -7,10 +7,6 @@ namespace sage::bounds {
 
 namespace {
 
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
-
 constexpr int kHeld = -1;
 
 // Where a row of a part goes: an equation, times a factor.
@@ -39,12 +35,12 @@ Cone joint_cone(const Strength& s, Quantity quantity, double stress) {
 }
 
 // Gradients of the barycentric coordinates, and twice the area.
-struct Geometry {
+struct TriangleShape {
   std::array<Vector2, 3> gradient;
   double area = 0.0;
   Vector2 middle = Vector2::Zero();
 
-  Geometry(const Domain& domain, const Triangle& t, double length) {
+  TriangleShape(const Domain& domain, const Triangle& t, double length) {
     std::array<Vector2, 3> x;
     for (std::size_t i = 0; i < 3; ++i) x[i] = domain.x[at(t.node[i])] / length;
     const Vector2 a = x[1] - x[0], b = x[2] - x[0];
@@ -265,7 +261,7 @@ class Lower {
 
   void add_triangle(int index) {
     const Triangle& t = d_.triangles[at(index)];
-    const Geometry g(d_, t, build_.length());
+    const TriangleShape g(d_, t, build_.length());
     const Soil& soil = d_.soils[at(t.soil)];
     Eigen::MatrixXd A = Eigen::MatrixXd::Zero(14, 9);
     std::vector<Row> rows{{2 * index}, {2 * index + 1}};
@@ -430,7 +426,7 @@ class Upper {
 
   void add_triangle(int index) {
     const Triangle& t = d_.triangles[at(index)];
-    const Geometry g(d_, t, build_.length());
+    const TriangleShape g(d_, t, build_.length());
     const Soil& soil = d_.soils[at(t.soil)];
     std::array<int, 6> node{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -461,7 +457,7 @@ class Upper {
   }
 
   // Gradient of the shape function of node k (3 ...: of the edge from corner k - 3) at a corner.
-  static Vector2 slope_at(const Geometry& g, int k, int corner) {
+  static Vector2 slope_at(const TriangleShape& g, int k, int corner) {
     if (k < 3) return (k == corner ? 3.0 : -1.0) * g.gradient[at(k)];
     const int a = k - 3, b = (a + 1) % 3;
     if (corner == a) return 4.0 * g.gradient[at(b)];

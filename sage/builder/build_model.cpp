@@ -296,16 +296,19 @@ void refuse_draft(const Deck& deck) {
             "finish it, then take out its line draft = true");
 }
 
-// The cards that the builder knows, of a deck that has others.
+}  // namespace
+
+namespace builder {
+
 std::optional<Deck> cards_of(const Deck& as_read, const Catalogue& catalogue) {
-  refuse_draft(as_read);
   return is_model_file(as_read) ? model_file_deck(as_read, catalogue) : translated_deck(as_read, catalogue);
 }
 
-}  // namespace
+}  // namespace builder
 
 Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
-  const std::optional<Deck> rewritten = cards_of(as_read, catalogue);
+  refuse_draft(as_read);
+  const std::optional<Deck> rewritten = builder::cards_of(as_read, catalogue);
   const Deck& deck = rewritten ? *rewritten : as_read;
   builder::Builder b{{deck, catalogue, options}, options};
   b.model.diagnostics = deck.diagnostics;
@@ -341,7 +344,8 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
 }
 
 Model build_materials_alone(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
-  const std::optional<Deck> rewritten = cards_of(as_read, catalogue);
+  refuse_draft(as_read);
+  const std::optional<Deck> rewritten = builder::cards_of(as_read, catalogue);
   const Deck& deck = rewritten ? *rewritten : as_read;
   builder::Builder b{{deck, catalogue, options}, options};
   b.model.fields = catalogue.fields;

@@ -93,6 +93,9 @@ void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
                std::vector<FieldLoad>& out_fields);
 void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out);
 
+// The cards that the builder knows, of a deck that has others: those of other programs, and model files.
+std::optional<Deck> cards_of(const Deck& as_read, const Catalogue& catalogue);
+
 void build_control(Builder& b);
 void build_plugins(Builder& b);  // those that the deck names must have been loaded
 // Behind a message about a code that is unknown; empty where no plug-in could have it.

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "sage/builder/builder.hpp"
 #include "sage/core/short_names.hpp"
-#include "sage/exchange/translate.hpp"
 #include "sage/messages/near_names.hpp"
 
 namespace sage {
@@ -53,9 +53,9 @@ std::string to_string(const NamedValue& value) {
 
 NamedModel::NamedModel(const Deck& deck, const Catalogue& catalogue, BuildOptions options)
     : catalogue_(&catalogue), options_(std::move(options)) {
-  std::optional<Deck> rewritten;
-  if (!deck.draft) rewritten = translated_deck(deck, catalogue);
-  deck_ = rewritten ? std::move(*rewritten) : deck;
+  deck_ = deck;
+  if (!deck.draft)
+    if (std::optional<Deck> cards = builder::cards_of(deck, catalogue)) deck_ = *std::move(cards);
   find_names();
 }
 

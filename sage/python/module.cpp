@@ -93,7 +93,7 @@ py::dict units_of(const Model& model) {
 }
 
 // A dictionary of columns: stage and increment, then those of the report's file.
-py::dict report_of(const Run& run, std::size_t index) {
+py::dict report_columns(const Run& run, std::size_t index) {
   py::dict columns;
   const Reports& reports = run.reports;
   const auto rows = static_cast<py::ssize_t>(reports.rows(index));
@@ -302,7 +302,7 @@ void define_run(py::module_& m) {
              return states;
            })
       .def_property_readonly("report_count", [](const Run& run) { return run.reports.count(); })
-      .def("report", &report_of)
+      .def("report", &report_columns)
       .def("report_units", &report_units)
       .def("report_messages", [](const Run& run, std::size_t index) { return run.reports.messages(index); })
       .def_property_readonly("report_kinds",
