@@ -80,8 +80,7 @@ struct StepReport {
   bool flows = false, spares_ground = false;
   // `flows` was found by motion through the size of the model, not by a residual that grows.
   bool proved = false;
-  int cuts = 0;     // halvings needed within this increment
-  int relaxed = 0;  // substeps that were found by dynamic relaxation
+  int cuts = 0;  // halvings needed within this increment
   int substeps = 1;
   std::vector<IterationRecord> iterations;  // of the last substep
   int total_iterations = 0;                 // of all substeps, cut ones included

@@ -248,7 +248,6 @@ bool StepControl::relax(StepReport& report, double end) {
     relaxation.show_strength();
     state.path.forget_way();
     ++state.path.relaxed;
-    ++report.relaxed;
   }
   if (state.reached == begin) refused_at_ = begin;
   return state.reached > begin;

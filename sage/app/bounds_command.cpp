@@ -129,8 +129,7 @@ int run_bounds(BoundsOptions options, const Catalogue& catalogue) {
     say_left(options.deck, results.close());
     const ProgressPause pause;
     fmt::print("{}", text);
-    for (std::size_t i = 0; i < files.size(); ++i)
-      fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
+    print_files(files);
     if (Json* json = answer()) {
       *json = bounds_json(options, quantity, ground, found);
       (*json)["files"] = files_json(files);

@@ -396,8 +396,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
     (*json)["comparison"] = comparison_json(comparison);
     (*json)["files"] = files_json(files);
   }
-  for (std::size_t i = 0; i < files.size(); ++i)
-    fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
+  print_files(files);
   if (interrupted()) say_error("sagefe compare", "interrupted: what is missing above was not computed", "S511");
   return interrupted() ? kInterrupted : exit_code_of(side_a, side_b);
 }

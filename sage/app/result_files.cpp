@@ -346,4 +346,9 @@ void say_left(const std::string& who, const ResultFiles::Left& left) {
               "S608");
 }
 
+void print_files(const std::vector<std::filesystem::path>& files) {
+  for (std::size_t i = 0; i < files.size(); ++i)
+    fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
+}
+
 }  // namespace sage::app

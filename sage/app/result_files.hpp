@@ -100,5 +100,7 @@ class ResultFiles final : public ResultLog {
 
 // A note for each file that was changed, and a warning where the list was damaged.
 void say_left(const std::string& who, const ResultFiles::Left& left);
+// The files that a command has written, a line each.
+void print_files(const std::vector<std::filesystem::path>& files);
 
 }  // namespace sage::app

@@ -219,8 +219,7 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
     say_left(options.deck, results.close());
     const ProgressPause pause;
     fmt::print("{}", text);
-    for (std::size_t i = 0; i < files.size(); ++i)
-      fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
+    print_files(files);
     if (Json* json = answer()) {
       *json = safety_json(options, meshes);
       (*json)["files"] = files_json(files);

@@ -99,8 +99,7 @@ int finish_sweep(const SweepCommand& command, const sweep::Sweep& all, const swe
   write_file(files[1], sweep::plot_text(all, result));
   const ProgressPause pause;
   fmt::print("{}", sweep::summary_text(all, result));
-  for (std::size_t i = 0; i < files.size(); ++i)
-    fmt::print("{:<7}{}\n", i == 0 ? "files:" : "", files[i].string());
+  print_files(files);
   answer_sweep(all, result, files);
   return kOk;
 }

@@ -37,7 +37,8 @@ std::vector<std::string> keys_of(const Names& names) {
 }  // namespace
 
 bool Drawing::is_drawn(const toml::table& root) {
-  return root.contains("area") || root.contains("mesh") || root.contains("points") || root.contains("line");
+  return root.contains("area") || root.contains("mesh") || root.contains("points") || root.contains("line") ||
+         root.contains("bar");
 }
 
 void Drawing::read_mesh(const toml::table& root) {
@@ -99,11 +100,23 @@ int Drawing::point_of(const toml::node& node) {
     section_.points.push_back(point);
     return static_cast<int>(section_.points.size()) - 1;
   }
+  return find_point(node);
+}
+
+int Drawing::find_point(const toml::node& node) {
   const std::string name = node.value_or(std::string());
   if (const auto found = points_.find(name); found != points_.end()) return found->second;
   values_.error("S153", values_.where(node),
                 name.empty() ? "a point is a name of [points], or [x, y]"
                              : "[points] has no \"" + name + "\"" + did_you_mean(name, keys_of(points_)));
+  return -1;
+}
+
+int Drawing::find_line(const toml::node& node) {
+  const std::string name = node.value_or(std::string());
+  if (const auto found = line_index_.find(name); found != line_index_.end()) return found->second;
+  values_.error("S153", values_.where(node),
+                "no [[line]] has the name \"" + name + "\"" + did_you_mean(name, keys_of(line_index_)));
   return -1;
 }
 
@@ -236,12 +249,11 @@ bool Drawing::mesh_it() {
   return meshed_;
 }
 
-void Drawing::add_nodes() {
-  for (std::size_t i = 0; i < mesh_.x.size(); ++i)
-    out_.add("node", values_.where(*mesh_at_),
-             {{"number", static_cast<double>(number_of(static_cast<int>(i))), {}, {}},
-              {"x", mesh_.x[i].x(), {}, {}},
-              {"y", mesh_.x[i].y(), {}, {}}});
+void Drawing::add_node(int node, const SourcePosition& where) {
+  const Vector2& x = mesh_.x[static_cast<std::size_t>(node)];
+  out_.add(
+      "node", where,
+      {{"number", static_cast<double>(number_of(node)), {}, {}}, {"x", x.x(), {}, {}}, {"y", x.y(), {}, {}}});
 }
 
 int Drawing::add_group(const std::string& name, const std::string& of, double element, int formulation,
@@ -254,7 +266,6 @@ int Drawing::add_group(const std::string& name, const std::string& of, double el
   if (!name.empty()) card.push_back({"name", 0.0, {}, name});
   out_.add("group", where, card);
   values_.groups.by_name.try_emplace(name, group_);
-  values_.groups.numbers.insert(group_);
   values_.groups.drawn[of].push_back(group_);
   return group_;
 }
@@ -267,7 +278,7 @@ void Drawing::add_element(int group, const std::vector<int>& nodes, const Source
   out_.add("element", where, card);
 }
 
-void Drawing::add_areas(const toml::table&) {
+void Drawing::add_areas() {
   const auto size = static_cast<std::size_t>(mesh_.nodes_per_element());
   for (std::size_t a = 0; a < mesh_.areas.size(); ++a) {
     const SourcePosition where = values_.where(*areas_[a]);
@@ -406,13 +417,9 @@ void Drawing::add_bars(const toml::table& root) {
       }
       PointMesh& mesh = mesh_.points[static_cast<std::size_t>(point->second)];
       if (mesh.nodes.empty()) {  // outside of the ground
-        const Vector2& x = section_.points[static_cast<std::size_t>(point->second)].x;
         mesh.nodes.push_back(static_cast<int>(mesh_.x.size()));
-        mesh_.x.push_back(x);
-        out_.add("node", where,
-                 {{"number", static_cast<double>(number_of(mesh.nodes[0])), {}, {}},
-                  {"x", x.x(), {}, {}},
-                  {"y", x.y(), {}, {}}});
+        mesh_.x.push_back(section_.points[static_cast<std::size_t>(point->second)].x);
+        add_node(mesh.nodes[0], where);
       }
       ends.push_back(mesh.beam >= 0 ? mesh.beam : mesh.nodes[0]);
     }
@@ -433,64 +440,45 @@ void Drawing::add(const toml::table& root) {
   read_lines(root);
   read_areas(root);
   if (entry_ == nullptr || mesh_at_ == nullptr || !mesh_it()) return;
-  add_nodes();
-  add_areas(root);
+  for (std::size_t i = 0; i < mesh_.x.size(); ++i) add_node(static_cast<int>(i), values_.where(*mesh_at_));
+  add_areas();
   add_lines();
   add_bars(root);
 }
 
 std::vector<int> Drawing::nodes_at(const toml::node& node) {
-  const std::string name = node.value_or(std::string());
-  const auto found = points_.find(name);
-  if (found == points_.end()) {
-    values_.error("S153", values_.where(node),
-                  "[points] has no \"" + name + "\"" + did_you_mean(name, keys_of(points_)));
-    return {};
-  }
+  const int found = find_point(node);
   std::vector<int> numbers;
-  if (!meshed_) return numbers;
-  const PointMesh& point = mesh_.points[static_cast<std::size_t>(found->second)];
-  for (const int one : point.nodes) numbers.push_back(number_of(one));
+  if (found < 0 || !meshed_) return numbers;
+  for (const int one : mesh_.points[static_cast<std::size_t>(found)].nodes) numbers.push_back(number_of(one));
   if (numbers.empty())
-    values_.error("S153", values_.where(node), "no node of the mesh lies at the point \"" + name + "\"");
+    values_.error("S153", values_.where(node),
+                  "no node of the mesh lies at the point \"" + node.value_or(std::string()) + "\"");
   return numbers;
 }
 
 std::vector<int> Drawing::nodes_along(const toml::node& node) {
-  const std::string name = node.value_or(std::string());
-  const auto found = line_index_.find(name);
-  if (found == line_index_.end()) {
-    values_.error("S153", values_.where(node),
-                  "no [[line]] has the name \"" + name + "\"" + did_you_mean(name, keys_of(line_index_)));
-    return {};
-  }
+  const int found = find_line(node);
   std::vector<int> numbers;
-  if (!meshed_) return numbers;
-  const LineMesh& line = mesh_.lines[static_cast<std::size_t>(found->second)];
-  for (const int one : line.nodes) numbers.push_back(number_of(one));
+  if (found < 0 || !meshed_) return numbers;
+  for (const int one : mesh_.lines[static_cast<std::size_t>(found)].nodes) numbers.push_back(number_of(one));
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
 
 std::vector<DrawnEdge> Drawing::edges_along(const toml::node& node, const toml::node* side) {
-  const std::string name = node.value_or(std::string());
-  const auto found = line_index_.find(name);
-  if (found == line_index_.end()) {
-    values_.error("S153", values_.where(node),
-                  "no [[line]] has the name \"" + name + "\"" + did_you_mean(name, keys_of(line_index_)));
-    return {};
-  }
+  const int found = find_line(node);
   std::vector<DrawnEdge> edges;
-  if (!meshed_) return edges;
-  const LineMesh& line = mesh_.lines[static_cast<std::size_t>(found->second)];
+  if (found < 0 || !meshed_) return edges;
+  const LineMesh& line = mesh_.lines[static_cast<std::size_t>(found)];
   const bool any_left = std::ranges::any_of(line.segments, [](const LineSegment& s) { return s.left.there(); });
   const bool any_right =
       std::ranges::any_of(line.segments, [](const LineSegment& s) { return s.right.there(); });
   const std::string wanted = side != nullptr ? side->value_or(std::string()) : any_left ? "left" : "right";
   if (side == nullptr && any_left && any_right) {
-    values_.error(
-        "S155", values_.where(node),
-        "line " + name + " has ground on both sides: give the side, \"left\" or \"right\" of its direction");
+    values_.error("S155", values_.where(node),
+                  "line " + node.value_or(std::string()) +
+                      " has ground on both sides: give the side, \"left\" or \"right\" of its direction");
     return {};
   }
   if (wanted != "left" && wanted != "right") {

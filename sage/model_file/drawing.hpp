@@ -52,7 +52,6 @@ class Drawing {
   struct Line {
     std::string name;
     int beam_material = 0, bar_material = 0;
-    bool hinged = false;
     Interface interface;
     const toml::table* at = nullptr;
   };
@@ -64,9 +63,12 @@ class Drawing {
   Interface read_interface(const toml::node& node);
   Outline read_outline(const toml::node& node);
   int point_of(const toml::node& node);  // a name, or [x, y]
+  // Index of what has this name; -1, and an error, where there is none.
+  int find_point(const toml::node& name);
+  int find_line(const toml::node& name);
   bool mesh_it();
-  void add_nodes();
-  void add_areas(const toml::table& root);
+  void add_node(int node, const SourcePosition& where);
+  void add_areas();
   void add_lines();
   void add_bars(const toml::table& root);
   void add_structure(const Line& line, const LineMesh& mesh);

@@ -10,6 +10,12 @@ namespace model_file {
 
 namespace {
 
+// A number of a card, 0 where it has none of this name.
+double number_of(const std::vector<NewField>& card, std::string_view name) {
+  const auto found = std::ranges::find(card, name, &NewField::name);
+  return found == card.end() ? 0.0 : found->number;
+}
+
 class Reader {
  public:
   Reader(const Deck& from, const Catalogue& catalogue) : values_(from, catalogue), out_(from) {}
@@ -31,6 +37,7 @@ class Reader {
   // Cards of fixities and loads at a point or along a line of the drawing, of pressures along one.
   bool add_at_place(const toml::table& one, const Table& table, int owner);
   void add_along(const toml::table& one, const Table& table, int owner);
+  bool is_drawn(const toml::node& place);  // an error where it is not
   void add_initial_tractions(const toml::table& from, int owner = -1);
   void draw(const toml::table& root);
 
@@ -155,18 +162,19 @@ void Reader::add_initial_tractions(const toml::table& from, int owner) {
   const Table& initial = table("initial");
   for (const toml::table* one : values_.entries(from, "initial")) {
     const std::vector<NewField> card = values_.fields(*one, initial);
-    const auto value = [&](const char* name) {
-      const auto found = std::ranges::find(card, name, &NewField::name);
-      return found == card.end() ? 0.0 : found->number;
-    };
-    if (value("kind") > 1.0) continue;
-    for (const int joint : drawing_->joints_beside(static_cast<int>(value("group"))))
+    if (number_of(card, "kind") > 1.0) continue;
+    const double group = number_of(card, "group");
+    for (const int joint : drawing_->joints_beside(static_cast<int>(group)))
       out_.add("initial", values_.where(*one),
-               {{"group", static_cast<double>(joint), {}, {}},
-                {"kind", 3.0, {}, {}},
-                {"v1", value("group"), {}, {}}},
+               {{"group", static_cast<double>(joint), {}, {}}, {"kind", 3.0, {}, {}}, {"v1", group, {}, {}}},
                owner);
   }
+}
+
+bool Reader::is_drawn(const toml::node& place) {
+  if (!drawing_)
+    values_.error("S153", values_.where(place), "points and lines need a drawing: [mesh], [points], [[area]]");
+  return drawing_.has_value();
 }
 
 // False: its nodes are given by their numbers.
@@ -175,10 +183,7 @@ bool Reader::add_at_place(const toml::table& one, const Table& cards, int owner)
   const toml::node* line = cards.find("line") != nullptr ? one.get("line") : nullptr;
   if (point == nullptr && line == nullptr) return false;
   const toml::node& place = point != nullptr ? *point : *line;
-  if (!drawing_) {
-    values_.error("S153", values_.where(place), "points and lines need a drawing: [mesh], [points], [[area]]");
-    return true;
-  }
+  if (!is_drawn(place)) return true;
   const std::vector<int> nodes = point != nullptr ? drawing_->nodes_at(place) : drawing_->nodes_along(place);
   std::vector<NewField> card = values_.fields(one, cards, {"first", "last", "step"});
   card.insert(card.begin(), {"first", 0.0, values_.where(place), {}});
@@ -194,18 +199,14 @@ bool Reader::add_at_place(const toml::table& one, const Table& cards, int owner)
 // at its last one.
 void Reader::add_along(const toml::table& one, const Table& cards, int owner) {
   const toml::node& line = *one.get("line");
-  if (!drawing_)
-    return values_.error("S153", values_.where(line), "a line needs a drawing: [mesh], [points], [[area]]");
+  if (!is_drawn(line)) return;
   const std::vector<NewField> given = values_.fields(one, cards, {"element", "edge", "last", "step"});
-  const auto value = [&](const std::string& name) {
-    const auto found = std::ranges::find(given, name, &NewField::name);
-    return found == given.end() ? 0.0 : found->number;
-  };
   for (const DrawnEdge& edge : drawing_->edges_along(line, one.get("side"))) {
     std::vector<NewField> card{{"element", static_cast<double>(edge.element), values_.where(line), {}},
                                {"edge", static_cast<double>(edge.edge), values_.where(line), {}}};
     for (const char* kind : {"normal", "shear"}) {
-      const double first = value(std::string(kind) + "1"), last = value(std::string(kind) + "2");
+      const double first = number_of(given, std::string(kind) + "1"),
+                   last = number_of(given, std::string(kind) + "2");
       card.push_back({std::string(kind) + "1", first + edge.first * (last - first), values_.where(one), {}});
       card.push_back({std::string(kind) + "2", first + edge.last * (last - first), values_.where(one), {}});
     }
@@ -256,7 +257,7 @@ void Reader::add_reports(const toml::table& root) {
       values_.add_value(*report.find("nodes"), *one, *nodes, card);
     for (const char* key : {"line", "point"}) {
       const toml::node* place = one->get(key);
-      if (place == nullptr || !drawing_) continue;
+      if (place == nullptr || !is_drawn(*place)) continue;
       for (const int node : key[0] == 'l' ? drawing_->nodes_along(*place) : drawing_->nodes_at(*place))
         card.push_back({"nodes", static_cast<double>(node), values_.where(*place), {}});
     }

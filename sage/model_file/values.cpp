@@ -79,7 +79,6 @@ void Values::list_names(const toml::table& root, Numbered& all) {
   for (const toml::table* one : entries(root, all.what)) {
     const toml::node* given = one->get("number");
     last = given != nullptr ? given->value<int>().value_or(0) : last + 1;
-    all.numbers.insert(last);
     const toml::node* name = one->get("name");
     if (name == nullptr || !name->is_string()) continue;
     const auto [at, added] = all.by_name.try_emplace(name->value_or(std::string()), last);

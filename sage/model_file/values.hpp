@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +19,6 @@ struct Numbered {
   std::string what;                               // "material"
   std::map<std::string, int> by_name;             // 0: several have it
   std::map<std::string, std::vector<int>> drawn;  // numbers of all that a line or area of the drawing has made
-  std::set<int> numbers;
 };
 
 class Values {
@@ -29,7 +27,7 @@ class Values {
 
   const Catalogue& catalogue;
   UnitSystem units;
-  Numbered materials{"material", {}, {}, {}}, groups{"group", {}, {}, {}};
+  Numbered materials{"material", {}, {}}, groups{"group", {}, {}};
   std::map<int, std::map<std::string, double>> parameters;  // that stand in the file, of each material
   Diagnostics problems;
 

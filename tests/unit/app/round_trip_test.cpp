@@ -64,17 +64,21 @@ std::string first_difference(const std::string& a, const std::string& b) {
   }
 }
 
+std::optional<Model> model_of(const fs::path& deck, const InputOptions& input, const Catalogue& catalogue) {
+  try {
+    return build_model(read_input(deck.string(), input), catalogue, input.build);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 class RoundTrip : public testing::TestWithParam<fs::path> {};
 
 TEST_P(RoundTrip, GivesTheSameModelAndListing) {
   const InputOptions input = input_of(GetParam());
   const Catalogue catalogue = full_catalogue();
-  std::optional<Model> model;
-  try {
-    model = build_model(read_input(GetParam().string(), input), catalogue, input.build);
-  } catch (const InputError&) {
-    GTEST_SKIP() << "no model: the deck is refused";
-  }
+  const std::optional<Model> model = model_of(GetParam(), input, catalogue);
+  if (!model) GTEST_SKIP() << "no model: the deck is refused";
   Diagnostics lost;
   const std::string text = sage1_text(*model, lost);
   EXPECT_TRUE(lost.list().empty()) << lost.list().front().message;
@@ -92,12 +96,8 @@ TEST_P(RoundTrip, GivesTheSameModelAndListing) {
 TEST_P(RoundTrip, ModelFileGivesTheSameModel) {
   const InputOptions input = input_of(GetParam());
   const Catalogue catalogue = full_catalogue();
-  std::optional<Model> model;
-  try {
-    model = build_model(read_input(GetParam().string(), input), catalogue, input.build);
-  } catch (const InputError&) {
-    GTEST_SKIP() << "no model: the deck is refused";
-  }
+  const std::optional<Model> model = model_of(GetParam(), input, catalogue);
+  if (!model) GTEST_SKIP() << "no model: the deck is refused";
   Diagnostics lost;
   const std::string cards = sage1_text(*model, lost, FieldWidth::wide);
   const std::string text = model_file_text(*model, catalogue, lost);

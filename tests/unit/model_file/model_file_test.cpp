@@ -158,6 +158,9 @@ const Broken kBroken[] = {
     {"material = \"clay\"", "material = \"sand\"", 26, "S153", "no [[material]]"},
     {"increments = 2", "increments = \"two\"", 30, "S152", "whole number"},
     {"edge = 3", "edge = 5", 31, "S230", "edge"},
+    {"kind = \"point\"", "kind = \"nodes\"\nline = \"base\"", 35, "S153", "need a drawing"},
+    {"first = 3, last = 4,", "point = \"A\",", 8, "S153", "need a drawing"},
+    {"[[report]]", "[[bar]]\nname = \"anchor\"\n[[report]]", 1, "S155", "a drawing needs a table [mesh]"},
     {"kind = \"point\"", "kind = \"pont\"", 34, "S153", "did you mean point?"},
     {"y = 1.0\nname", "y = inf\nname", 36, "S152", "not finite"},
 };
