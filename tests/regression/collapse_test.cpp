@@ -235,11 +235,11 @@ std::string with_replaced(std::string text, const std::string& from, const std::
 
 // A rough strip with phi = 30 and psi = 0.  An explicit code of others follows this mesh to 78.7 +- 1.3 kN after a first peak
 // of 83.5; the associated load is 95.0.  Newton's method alone stops in the second of 60 increments with 31.8.  Half of
-// the push shows the plateau.
+// the push shows the plateau; a tenth of it, under sanitizers, runs the same lines.
 TEST(Collapse, FootingWithoutDilationReachesItsPlateau) {
   const fs::path folder = empty_folder("no_dilation");
   const std::string increments = kSanitized ? "        10" : "        30",
-                    settlement = kSanitized ? "-.012" : "-.05";
+                    settlement = kSanitized ? "-.01" : "-.05";
   std::string deck = read(SAGE_SOURCE_DIR "/tests/regression/data/footing_phi30_psi0_quad8.dat");
   deck = with_replaced(deck, "\n        60         0        60 ", "\n" + increments + "         0        60 ");
   write(folder / "push.dat", with_replaced(deck, "-0.1\n", settlement + "\n"));
