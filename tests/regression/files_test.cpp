@@ -311,8 +311,9 @@ TEST(Files, ResultsOfFailedAndKilledRunsDoNotStay) {
             (std::set<std::string>{"x.files", "x.lst", "x.increments.csv", "x.report1.csv"}));
 
   write(folder / "failed.dat", long_deck());
-  sagefe(folder, "run failed.dat -o k -q --vtu --points --checkpoint -1", killed_after(1.0));
-  ASSERT_TRUE(fs::exists(folder / "k/failed_0001.vtu"));
+  const Finished run = sagefe(folder, "run failed.dat -o k -q --vtu --points --checkpoint -1",
+                              killed_once_there_is("k/failed_0001.vtu"));
+  ASSERT_EQ(run.exit_code, 137);
   write(folder / "failed.dat", block());
   ASSERT_EQ(sagefe(folder, "run failed.dat -o k -q").exit_code, 0);
   EXPECT_EQ(names(folder / "k"), (std::set<std::string>{"failed.files", "failed.lst", "failed.increments.csv",

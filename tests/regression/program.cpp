@@ -180,6 +180,11 @@ std::string killed_after(double seconds) {
          R"(; kill -KILL $child) 2>/dev/null & timer=$!; wait $child; code=$?; kill $timer 2>/dev/null; exit $code')";
 }
 
+std::string killed_once_there_is(const std::string& file) {
+  return R"(sh -c '"$0" "$@" & run=$!; for i in $(seq 30000); do test -e )" + file +
+         R"( && break; sleep 0.01; done; kill -KILL $run; wait $run; exit $?')";
+}
+
 fs::path empty_folder(const std::string& name) {
   const fs::path folder = scratch_folder(name);
   fs::remove_all(folder);

@@ -53,6 +53,8 @@ Finished sagefe(const std::filesystem::path& folder, const std::string& argument
 // For `under`: SIGKILL after so many seconds, exit code 137 then.  Ends when the program is gone, and its locks
 // with it; `timeout -s KILL` doesn't wait for that.
 std::string killed_after(double seconds);
+// The same as soon as a file of the folder exists, or after 5 minutes.
+std::string killed_once_there_is(const std::string& file);
 
 // An empty folder of the test's own.
 std::filesystem::path empty_folder(const std::string& name);
