@@ -102,7 +102,7 @@ HoekBrown::Attempt HoekBrown::attempt(const Vector4& trial, double x) const {
     a.moved = return_to_moving_planes(moving, elastic_, from_tip);
   } else {  // the planes of another place lie outside the criterion
     const Principal axes = principal(trial);
-    const Matrix4 T_back = stress_from_principal_axes(axes.cos, -axes.sin);
+    const Matrix4 T_back = stress_from_principal_axes(axes.cos_2, -axes.sin_2);
     a.moved = {{from_tip, Matrix4::Identity(), PointStatus::elastic},
                Vector4::Zero(),
                T_back.row(axes.zz > axes.a ? 2 : 0).transpose()};

@@ -190,8 +190,8 @@ Share shortened(const Share& error) {
 
 Extremes extremes(const Vector4& sigma, bool in_plane) {
   const Principal s = principal(sigma);
-  const double c = s.cos, n = s.sin;
-  const Vector4 along_a{c * c, n * n, 0.0, 2.0 * c * n}, along_b{n * n, c * c, 0.0, -2.0 * c * n};
+  const double c = 0.5 * (1.0 + s.cos_2), n = 0.5 * (1.0 - s.cos_2);  // cos^2, sin^2
+  const Vector4 along_a{c, n, 0.0, s.sin_2}, along_b{n, c, 0.0, -s.sin_2};
   const Vector4 along_zz = Vector4::Unit(2);
   const bool zz_largest = !in_plane && s.zz < s.b, zz_smallest = !in_plane && s.zz > s.a;
   return {zz_largest ? -s.zz : -s.b, zz_smallest ? -s.zz : -s.a, zz_largest ? -along_zz : -along_b,

@@ -56,39 +56,43 @@ Vector3 normal(Plane plane, double slope) {
   return Vector3::Zero();
 }
 
+// The planes of a set: A their normals, D B their plastic stresses, y where they stand.  D is that of the principal stresses
+// over its first term, so that no unit of stress can make the inverse overflow.  Unused columns are kept as identity.
+struct PlaneSet {
+  PlaneSet(const MohrCoulombPlanes& planes, const Matrix3& D, const ActiveSet& set) {
+    Matrix3 B, unused = Matrix3::Zero();
+    for (int i = 0; i < 3; ++i) {
+      const Plane plane = set[static_cast<std::size_t>(i)];
+      A.col(i) = normal(plane, planes.N);
+      B.col(i) = normal(plane, planes.M);
+      y[i] = plane < t1 ? planes.Y : plane < none ? planes.T : 0.0;
+      if (plane == none) unused(i, i) = 1.0;
+    }
+    DB.noalias() = D * B;
+    S_inverse = Matrix3(A.transpose() * DB + unused).inverse();
+  }
+  Vector3 multipliers(const Vector3& sigma) const { return S_inverse * (A.transpose() * sigma - y); }
+
+  Matrix3 A, DB, S_inverse;
+  Vector3 y;
+};
+
 struct Candidate {
   Vector3 sigma;
   Matrix3 R;
-  double smallest_multiplier;
   bool vertex;  // three planes: the stress can't move
   ActiveSet set{none, none, none};
   Vector3 lambda = Vector3::Zero();
 };
 
-// Koiter: s = s_tr - D B lambda,  lambda = (A^T D B)^-1 (A^T s_tr - y).  Unused columns are kept as identity.
-Candidate return_to_set(const MohrCoulombPlanes& planes, const Matrix3& D, const ActiveSet& set,
-                        const Vector3& trial) {
-  Matrix3 A, B, unused = Matrix3::Zero();
-  Vector3 y;
-  for (int i = 0; i < 3; ++i) {
-    const Plane plane = set[static_cast<std::size_t>(i)];
-    A.col(i) = normal(plane, planes.N);
-    B.col(i) = normal(plane, planes.M);
-    y[i] = plane < t1 ? planes.Y : plane < none ? planes.T : 0.0;
-    if (plane == none) unused(i, i) = 1.0;
-  }
-  const Matrix3 DB = D * B;
-  const Eigen::PartialPivLU<Matrix3> S(A.transpose() * DB + unused);
-  Vector3 lambda = S.solve(A.transpose() * trial - y);
-  Candidate c;
-  c.vertex = set[2] != none;
-  c.set = set;
-  c.lambda = lambda;
-  c.smallest_multiplier = lambda.minCoeff();
-  c.sigma = trial - DB * lambda;
+// Koiter: s = s_tr - D B lambda,  lambda = (A^T D B)^-1 (A^T s_tr - y).
+Candidate return_to_set(const PlaneSet& planes, const ActiveSet& set, const Vector3& trial,
+                        const Vector3& lambda) {
+  Candidate c{trial - planes.DB * lambda,
+              Matrix3::Identity() - planes.DB * planes.S_inverse * planes.A.transpose(), set[2] != none, set,
+              lambda};
   // A trial stress far away leaves its rounding on the planes: take it off again.
-  for (int repeat = 0; repeat < 2; ++repeat) c.sigma -= DB * S.solve(A.transpose() * c.sigma - y);
-  c.R = Matrix3::Identity() - DB * S.solve(A.transpose());
+  for (int repeat = 0; repeat < 2; ++repeat) c.sigma -= planes.DB * planes.multipliers(c.sigma);
   return c;
 }
 
@@ -98,16 +102,18 @@ bool acceptable(const MohrCoulombPlanes& planes, const Vector3& s, double cut_of
   return ordered && s[0] <= cut_off + rounding && planes.N * s[0] - s[2] - planes.Y <= planes.N * rounding;
 }
 
-// The sets are tried from few planes to many; a set with multipliers >= 0 is the answer.
+// The sets are tried from few planes to many; a set with multipliers >= 0 is the answer, and the last one if there is none.
 template <std::size_t Count>
 bool find_set(const MohrCoulombPlanes& planes, const Matrix3& D, const std::array<ActiveSet, Count>& sets,
               const Vector3& trial, double cut_off, Candidate& found) {
   const double rounding = kRounding * trial.cwiseAbs().maxCoeff();
   for (const ActiveSet& set : sets) {
-    found = return_to_set(planes, D, set, trial);
-    const double negative = -rounding / D(0, 0);
-    if (found.smallest_multiplier >= negative && acceptable(planes, found.sigma, cut_off, rounding))
-      return true;
+    const PlaneSet active(planes, D, set);
+    const Vector3 lambda = active.multipliers(trial);
+    const bool loaded = lambda.minCoeff() >= -rounding;
+    if (!loaded && set != sets.back()) continue;
+    found = return_to_set(active, set, trial, lambda);
+    if (loaded && acceptable(planes, found.sigma, cut_off, rounding)) return true;
   }
   return false;
 }
@@ -121,22 +127,16 @@ Vector3 rate_of(const MovingPlanes& moving, const Matrix3& D, const Candidate& c
     return Vector3::Constant(planes.T < planes.apex() ? rates.T
                                                       : rates.Y / above - planes.Y * rates.N / (above * above));
   }
-  Matrix3 A, B, unused = Matrix3::Zero();
   Vector3 right, flow = Vector3::Zero();
   for (int i = 0; i < 3; ++i) {
     const Plane plane = c.set[static_cast<std::size_t>(i)];
-    A.col(i) = normal(plane, planes.N);
-    B.col(i) = normal(plane, planes.M);
-    if (plane == none) unused(i, i) = 1.0;
     // d(normal)/d(slope): the slope stands with the larger of the two principals.
     const Vector3 turn = plane < t1 ? Vector3(normal(plane, 1.0) - normal(plane, 0.0)) : Vector3::Zero();
     flow += rates.M * c.lambda[i] * turn;
     right[i] = rates.N * turn.dot(c.sigma) - (plane < t1 ? rates.Y : plane < none ? rates.T : 0.0);
   }
-  const Matrix3 DB = D * B;
-  const Eigen::PartialPivLU<Matrix3> S(A.transpose() * DB + unused);
-  const Vector3 change = S.solve(right - A.transpose() * (D * flow));
-  return -(D * flow + DB * change);
+  const PlaneSet active(planes, D, c.set);
+  return -(D * flow + active.DB * (active.S_inverse * (right - active.A.transpose() * (D * flow))));
 }
 
 // Sorted trial stress to sorted answer.
@@ -147,7 +147,13 @@ Candidate return_sorted(const MohrCoulombPlanes& planes, const Matrix3& D, const
                                      : find_set(planes, D, kMohrCoulombSets, trial, apex, c);
   const double tip = std::min(planes.T, apex);
   if (found || !std::isfinite(tip)) return c;  // without a tip the last edge differs by rounding only
-  return {Vector3::Constant(tip), Matrix3::Zero(), 0.0, true, {none, none, none}, Vector3::Zero()};
+  return {Vector3::Constant(tip), Matrix3::Zero(), true, {none, none, none}, Vector3::Zero()};
+}
+
+// D of the principal stresses over its first term: no answer depends on its size.
+Matrix3 principal_stiffness(const ElasticModuli& elastic) {
+  const Matrix3 D = elastic_matrix(elastic).topLeftCorner<3, 3>();
+  return D / D(0, 0);
 }
 
 // A trial stress in its principal axes, and what it comes back to there.
@@ -184,8 +190,8 @@ MohrCoulombReturn in_place(const MohrCoulombPlanes& planes, const InAxes& trial,
   const bool distinct = apart > 1e-9 * trial.value.cwiseAbs().maxCoeff();
   R(3, 3) = distinct ? (sigma[0] - sigma[1]) / apart : 0.5 * (R(0, 0) - R(0, 1) - R(1, 0) + R(1, 1));
 
-  const Matrix4 T = stress_from_principal_axes(axes.cos, axes.sin);
-  const Matrix4 T_back = stress_from_principal_axes(axes.cos, -axes.sin);
+  const Matrix4 T = stress_from_principal_axes(axes.cos_2, axes.sin_2);
+  const Matrix4 T_back = stress_from_principal_axes(axes.cos_2, -axes.sin_2);
   MohrCoulombReturn result;
   result.sigma = T * sigma;
   result.R = T * R * T_back;
@@ -215,17 +221,16 @@ bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma) {
 MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
                                    const Vector4& trial) {
   const InAxes axes(trial);
-  const Matrix3 D = elastic_matrix(elastic).topLeftCorner<3, 3>();
-  return in_place(planes, axes, return_sorted(planes, D, axes.sorted));
+  return in_place(planes, axes, return_sorted(planes, principal_stiffness(elastic), axes.sorted));
 }
 
 MovedReturn return_to_moving_planes(const MovingPlanes& moving, const ElasticModuli& elastic,
                                     const Vector4& trial) {
   const InAxes axes(trial);
-  const Matrix3 D = elastic_matrix(elastic).topLeftCorner<3, 3>();
+  const Matrix3 D = principal_stiffness(elastic);
   const Candidate answer = return_sorted(moving.planes, D, axes.sorted);
-  const Matrix4 T = stress_from_principal_axes(axes.axes.cos, axes.axes.sin);
-  const Matrix4 T_back = stress_from_principal_axes(axes.axes.cos, -axes.axes.sin);
+  const Matrix4 T = stress_from_principal_axes(axes.axes.cos_2, axes.axes.sin_2);
+  const Matrix4 T_back = stress_from_principal_axes(axes.axes.cos_2, -axes.axes.sin_2);
   return {in_place(moving.planes, axes, answer), T * axes.unsorted(rate_of(moving, D, answer)),
           T_back.transpose() * axes.unsorted(Vector3::UnitX())};
 }

@@ -66,23 +66,24 @@ inline Matrix4 deviatoric_projection() {
   return I;
 }
 
-// Principal stresses: a >= b in the plane, a at the angle (cos, sin) from x; zz out of it.
+// Principal stresses: a >= b in the plane, a at an angle from x whose double has (cos_2, sin_2); zz out of it.
 struct Principal {
   double a, b, zz;
-  double cos, sin;
+  double cos_2, sin_2;
 };
 inline Principal principal(const Vector4& sigma) {
   const double mean = 0.5 * (sigma[0] + sigma[1]), half = 0.5 * (sigma[0] - sigma[1]);
-  const double radius = std::hypot(half, sigma[3]);
-  const double angle = 0.5 * std::atan2(sigma[3], half);  // any, where all directions are alike
-  return {mean + radius, mean - radius, sigma[2], std::cos(angle), std::sin(angle)};
+  const double radius =
+      std::sqrt(half * half + sigma[3] * sigma[3]);  // faster than hypot; no stress overflows it
+  const bool round = !(radius > 0.0);                // all directions are alike
+  return {mean + radius, mean - radius, sigma[2], round ? 1.0 : half / radius, round ? 0.0 : sigma[3] / radius};
 }
 
-// [xx yy zz xy] = T [a b zz ab] for axes a, b turned by the angle (cos, sin) from x, y.
-inline Matrix4 stress_from_principal_axes(double c, double s) {
+// [xx yy zz xy] = T [a b zz ab] for axes a, b turned by half the angle (cos_2, sin_2) from x, y.
+inline Matrix4 stress_from_principal_axes(double cos_2, double sin_2) {
+  const double c = 0.5 * (1.0 + cos_2), s = 0.5 * (1.0 - cos_2), cs = 0.5 * sin_2;  // cos^2, sin^2, cos sin
   Matrix4 T;
-  T << c * c, s * s, 0.0, -2.0 * c * s, s * s, c * c, 0.0, 2.0 * c * s, 0.0, 0.0, 1.0, 0.0, c * s, -c * s, 0.0,
-      c * c - s * s;
+  T << c, s, 0.0, -sin_2, s, c, 0.0, sin_2, 0.0, 0.0, 1.0, 0.0, cs, -cs, 0.0, cos_2;
   return T;
 }
 
