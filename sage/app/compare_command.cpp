@@ -17,6 +17,7 @@
 #include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
+#include "sage/app/wrap.hpp"
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/model/locate.hpp"
@@ -385,7 +386,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   }
   say_left(o.decks.front(), results.close());
   const ProgressPause pause;
-  fmt::print("{}", compare::to_text(comparison, a, b));
+  fmt::print("{}", wrapped(compare::to_text(comparison, a, b), kHelpColumns));
   for (const FinishedSide* one : {&side_a, &side_b}) {
     if (one->convergence && !one->convergence->table.empty()) files.push_back(one->convergence->table);
     if (one->side.has_model())

@@ -84,7 +84,7 @@ Comparison compare(const Side& a, const Side& b, const std::vector<Line>& lines,
                    const std::vector<CertainValue>& certain_b = {},
                    const std::vector<std::string>& fields = {});
 
-// A page for the terminal; signs and units at its end.
+// A page for the terminal; signs and units at its end.  Tables have at most 80 columns; sentences are not wrapped.
 std::string to_text(const Comparison& comparison, const Side& a, const Side& b);
 // All rows: section,quantity,unit,A,B,difference,relative,expected_ratio,error_A,error_B.
 std::string to_csv(const Comparison& comparison, const Side& a, const Side& b, int digits = kCsvDigits);

@@ -24,37 +24,50 @@ std::string shown_relative(const Row& row) {
   return std::abs(r) < 1e-4 && r != 0.0 ? fmt::format("{:+.1e}", r) : fmt::format("{:+.3f}%", 100.0 * r);
 }
 
+// Columns of a page: the names and units of a table share the first ones.
+constexpr std::size_t kNameAndUnit = 43;
+
+// A name, its unit and the cells of a row.  A name that leaves its unit no room has a line of its own.
+void line(std::string& text, const std::string& name, const std::string& unit, const std::string& first,
+          const std::string& second, const std::string& last) {
+  if (name.size() + 1 + unit.size() > kNameAndUnit)
+    fmt::format_to(std::back_inserter(text), "{}\n{:>{}}", name, unit, kNameAndUnit);
+  else
+    fmt::format_to(std::back_inserter(text), "{}{:>{}}", name, unit, kNameAndUnit - name.size());
+  fmt::format_to(std::back_inserter(text), " {:>12} {:>12} {:>10}\n", first, second, last);
+}
+
 void table(std::string& text, const std::vector<Row>& rows) {
-  const auto out = std::back_inserter(text);
   std::string section;
   for (const Row& row : rows) {
     if (row.section != section) {
       section = row.section;
-      fmt::format_to(out, "\n{:<46} {:>8} {:>13} {:>13} {:>13} {:>10} {:>9}\n", section, "unit", "A", "B",
-                     "B - A", "relative", "B/A exp.");
+      text += '\n';
+      line(text, section, "unit", "A", "B", "relative");
     }
-    fmt::format_to(out, "  {:<44} {:>8} {:>13} {:>13} {:>13} {:>10} {:>9}\n", row.name, row.unit,
-                   row.zero_a() ? "0" : shown(row.a, row.scale), row.zero_b() ? "0" : shown(row.b, row.scale),
-                   shown(row.difference(), row.scale), shown_relative(row), shown(row.expected));
+    line(text, "  " + row.name, row.unit, row.zero_a() ? "0" : shown(row.a, row.scale),
+         row.zero_b() ? "0" : shown(row.b, row.scale), shown_relative(row));
+    if (std::isfinite(row.expected)) text += "    theory expects B / A = " + shown(row.expected) + "\n";
   }
 }
 
-std::string outcome(const Side& side) {
-  const std::string open = side.not_reached().empty() ? "" : "; NOT REACHED: " + one_line(side.not_reached());
+// How the run of a side ended; `joint` stands before what its meshes did not reach.
+std::string outcome(const Side& side, const char* joint) {
+  const std::string open =
+      side.not_reached().empty() ? "" : joint + ("NOT REACHED: " + one_line(side.not_reached()));
   if (side.error().empty()) return completed_words(side.model(), side.record().result.motion) + open;
   const std::string reason = one_line(side.error());
   return (side.has_state() ? "NOT COMPLETE, compared up to its last state in equilibrium: " : "NO RESULTS: ") +
          reason;
 }
 
-std::string signs(const Side& a, const Side& b) {
+std::string signs(const Side& a, const Side& b, const char* joint) {
   std::string text =
       "stress and strain compression positive; displacements, loads and reactions along the axes; shear stress "
-      "of "
-      "a side along +x or +y";
+      "of a side along +x or +y";
   for (const Side* side : {&a, &b})
     if (side->has_model())
-      text += fmt::format("; {}: forces {}", side == &a ? "A" : "B", forces_per(side->model()));
+      text += fmt::format("{}{}: forces {}", joint, side == &a ? "A" : "B", forces_per(side->model()));
   return text;
 }
 
@@ -69,47 +82,52 @@ std::string with_mesh_error(double value, double error) {
   return std::isfinite(error) && std::isfinite(value) ? with_error(value, error) : shown(value);
 }
 
-std::string why_of(const Answer& answer) {
-  std::string text = answer.why;
+// Sides whose value is less certain than was asked for; empty if there is none.
+std::string doubt_of(const Answer& answer) {
+  std::string text;
   const bool a = !answer.reached_a, b = !answer.reached_b;
-  if (a || b) text += std::string("; NOT REACHED in ") + (a && b ? "A and B" : a ? "A" : "B");
+  if (a || b) text += std::string("NOT REACHED in ") + (a && b ? "A and B" : a ? "A" : "B");
   for (const auto& [letter, error] : {std::pair{"A", answer.error_a}, std::pair{"B", answer.error_b}})
-    if (std::isinf(error)) text += std::string("; error unknown in ") + letter;
+    if (std::isinf(error))
+      text += (text.empty() ? "error unknown in " : "; error unknown in ") + std::string(letter);
   return text;
 }
 
-// The question that is asked first: what the reports say in both, and what was to be expected of it.
+// What the reports of both sides end with, and the ratio that theory expects.
 void answers(std::string& text, const Comparison& c, const Side& a, const Side& b) {
-  const auto out = std::back_inserter(text);
   if (!a.has_state() || !b.has_state()) return;
   if (c.answers.empty()) {
-    text +=
-        "\nThe decks report nothing that both have: a report card or --point x,y says what is to be "
-        "compared.\n";
+    text += "\nThe decks have no report in common. Add a report card, or --point x,y.\n";
     return;
   }
   const auto title = [](const Side& side, const char* letter) {
     return fmt::format("{} ({})", letter,
                        side.model().geometry == Geometry::axisymmetric ? "axisymmetry" : "plane strain");
   };
-  fmt::format_to(out, "\n{:<28} {:>8} {:>34} {:>34} {:>30} {:>10}\n", "reported at the end", "unit",
-                 title(a, "A"), title(b, "B"), "B / A", "theory");
-  for (const Answer& answer : c.answers)
-    fmt::format_to(out, "  {:<26} {:>8} {:>34} {:>34} {:>30} {:>10}  {}\n", answer.name, answer.unit,
-                   with_mesh_error(answer.a, answer.error_a), with_mesh_error(answer.b, answer.error_b),
-                   answer.ratio_known() ? with_mesh_error(answer.ratio(), answer.ratio_error()) : "-",
-                   shown(answer.expected), why_of(answer));
+  const auto entry = [&text](const std::string& name, const std::string& value) {
+    fmt::format_to(std::back_inserter(text), "    {:<18} {}\n", name, value);
+  };
+  text += "\nreported at the end\n";
+  for (const Answer& answer : c.answers) {
+    text += fmt::format("  {} [{}]\n", answer.name, answer.unit);
+    entry(title(a, "A"), with_mesh_error(answer.a, answer.error_a));
+    entry(title(b, "B"), with_mesh_error(answer.b, answer.error_b));
+    entry("B / A", answer.ratio_known() ? with_mesh_error(answer.ratio(), answer.ratio_error()) : "-");
+    const std::string expected = std::isfinite(answer.expected) ? shown(answer.expected) : "";
+    entry("theory", expected + (expected.empty() || answer.why.empty() ? "" : ": ") + answer.why);
+    if (const std::string doubt = doubt_of(answer); !doubt.empty()) entry("certainty", doubt);
+  }
 }
 
 void theory(std::string& text, const Comparison& c) {
   if (c.theory.empty()) return;
-  const auto out = std::back_inserter(text);
-  fmt::format_to(out, "\n{:<46} {:>8} {:>13} {:>13} {:>10}\n", "theory", "unit", "expected", "found",
-                 "relative");
+  text += '\n';
+  line(text, "theory", "unit", "expected", "found", "relative");
   for (const Expectation& e : c.theory) {
     const Row row{"", "", "", e.expected, e.found};
-    fmt::format_to(out, "  {:<44} {:>8} {:>13} {:>13} {:>10}  {}\n", e.what, e.unit, shown(e.expected),
-                   shown(e.found), std::isfinite(e.expected) ? shown_relative(row) : "-", e.why);
+    line(text, "  " + e.what, e.unit, shown(e.expected), shown(e.found),
+         std::isfinite(e.expected) ? shown_relative(row) : "-");
+    if (!e.why.empty()) text += "    " + e.why + "\n";
   }
 }
 
@@ -117,23 +135,21 @@ void theory(std::string& text, const Comparison& c) {
 
 std::string to_text(const Comparison& c, const Side& a, const Side& b) {
   std::string text;
-  const auto out = std::back_inserter(text);
-  for (const Side* side : {&a, &b}) fmt::format_to(out, "{}\n   {}\n", side->label(), outcome(*side));
+  for (const Side* side : {&a, &b}) text += side->label() + "\n   " + outcome(*side, "\n   ") + "\n";
   answers(text, c, a, b);
   theory(text, c);
   table(text, c.rows);
   text += '\n';
   for (const std::string& note : c.notes) text += "note: " + note + "\n";
-  text +=
-      "relative: (B - A) / |A|, or (found - expected) / |expected|. B/A exp.: what theory expects of B / A.\n";
-  text += "signs: " + signs(a, b) + "\n";
+  text += "relative: (B - A) / |A|, or (found - expected) / |expected|\n";
+  text += "signs: " + signs(a, b, "\n") + "\n";
   return text;
 }
 
 std::string to_csv(const Comparison& c, const Side& a, const Side& b, int digits) {
   std::string text;
-  for (const Side* side : {&a, &b}) text += "# " + side->label() + ": " + outcome(*side) + "\n";
-  text += "# signs: " + signs(a, b) + "\n";
+  for (const Side* side : {&a, &b}) text += "# " + side->label() + ": " + outcome(*side, "; ") + "\n";
+  text += "# signs: " + signs(a, b, "; ") + "\n";
   for (const std::string& note : c.notes) text += "# " + note + "\n";
   text += "section,quantity,unit,A,B,difference,relative[-],expected_ratio[-],error_A,error_B\n";
   const auto quoted = [](std::string words) {

@@ -276,6 +276,8 @@ TEST(CommandLine, CompareReportsTheSideThatRuns) {
                           "forces for the full circle", "compression positive", "point"});
   EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare.csv"));
   EXPECT_TRUE(fs::exists(folder / "out" / "deck.compare_stress_yy.svg"));
+  std::istringstream page(both.out);
+  for (std::string line; std::getline(page, line);) EXPECT_LE(line.size(), 80u) << line;
   for (const char* decks : {"deck.dat bad.dat", "bad.dat deck.dat"}) {
     const Finished half = sagefe(folder, std::string("compare ") + decks);
     EXPECT_EQ(half.exit_code, 2);
