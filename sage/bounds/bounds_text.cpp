@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <span>
 
 #include "sage/draw/colour_map.hpp"
 #include "sage/draw/svg.hpp"
@@ -53,10 +54,9 @@ struct Frame {
   }
 };
 
-void add_triangle(std::string& out, const Frame& frame, const std::array<Vector2, 3>& x,
-                  const std::string& colour) {
+void add_polygon(std::string& out, const Frame& frame, std::span<const Vector2> x, const std::string& colour) {
   out += "<path d=\"M";
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
     const Vector2 p = frame.place(x[i]);
     if (i > 0) out += "L";
     svg::number(out, p.x());
@@ -72,8 +72,81 @@ std::array<Vector2, 3> corners(const Domain& domain, const Triangle& t) {
   return x;
 }
 
-// Radius of Mohr's circle over that at yield with the strengths divided by F, in the mean of the corners.
-double mobilised(const Domain& domain, const Bounds& found, std::size_t t, double factor) {
+// Largest shear strain rate, the mean over a part: velocities are linear along its sides.
+double shear_rate(const MovingPart& part) {
+  double area = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
+  for (std::size_t i = 0, n = part.corner.size(); i < n; ++i) {
+    const std::size_t j = (i + 1) % n;
+    const Vector2 &a = part.corner[i], side = part.corner[j] - a, v = 0.5 * (part.motion[i] + part.motion[j]);
+    area += 0.5 * (a.x() * side.y() - a.y() * side.x());
+    xx += v.x() * side.y();
+    yy -= v.y() * side.x();
+    xy += v.y() * side.y() - v.x() * side.x();
+  }
+  return std::hypot(xx - yy, xy) / area;
+}
+
+std::vector<MovingPart> mechanism_of(const Bounds& found) {
+  std::vector<MovingPart> parts;
+  if (found.velocity.cols() == 0) return parts;
+  for (const Triangle& t : found.domain.triangles) {
+    MovingPart& part = parts.emplace_back();
+    for (const int node : t.node) {
+      part.corner.push_back(found.domain.x[static_cast<std::size_t>(node)]);
+      part.motion.emplace_back(found.velocity.col(node));
+    }
+  }
+  return parts;
+}
+
+void draw_stress(std::string& out, const Frame& frame, const Bounds& found, double factor) {
+  for (std::size_t t = 0; t < found.domain.triangles.size(); ++t)
+    add_polygon(out, frame, corners(found.domain, found.domain.triangles[t]),
+                hex(viridis(mobilised(found, t, factor))));
+}
+
+void draw_mechanism(std::string& out, const Frame& frame, const std::vector<MovingPart>& parts) {
+  if (parts.empty()) return;
+  std::vector<double> rate;
+  double largest = 0.0;
+  for (const MovingPart& part : parts) {
+    rate.push_back(shear_rate(part));
+    for (const Vector2& v : part.motion) largest = std::max(largest, v.cwiseAbs().maxCoeff());
+  }
+  std::vector<double> sorted = rate;
+  std::sort(sorted.begin(), sorted.end());
+  const double most = std::max(sorted[(sorted.size() - 1) * 95 / 100], 1e-300);
+  const double moved = 0.05 * std::max(frame.high.x() - frame.low.x(), frame.high.y() - frame.low.y()) /
+                       std::max(largest, 1e-300);
+  for (std::size_t t = 0; t < parts.size(); ++t) {
+    std::vector<Vector2> x = parts[t].corner;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += moved * parts[t].motion[i];
+    add_polygon(out, frame, x, hex(viridis(std::sqrt(rate[t] / most))));
+  }
+}
+
+// How an answer lies beside the bounds.
+std::string beside(const Bounds& found, const OtherAnswer& other) {
+  if (!other.remark.empty()) return "NOT PROVED: " + other.remark;
+  if (!other.associated || !other.lower || !found.upper.value) return {};
+  if (contradicts(found, other)) return "BELOW the lower bound";
+  const double above = 100.0 * (*other.lower / *found.upper.value - 1.0);
+  return above > 0.0 ? fmt::format("lower end {:.2f} % above the upper bound", above) : "beside the bounds";
+}
+
+std::string answers_table(const Bounds& found, const std::vector<OtherAnswer>& others) {
+  constexpr const char* kRow = "{:<36}{:>12}{:>12}  {}\n";
+  std::string text = fmt::format(kRow, "", "lower", "upper", "");
+  text += fmt::format(kRow, "bounds, psi = phi", words_of(found.lower.value), words_of(found.upper.value), "");
+  for (const OtherAnswer& other : others)
+    text += fmt::format(kRow, other.name, words_of(other.lower), words_of(other.upper), beside(found, other));
+  return text;
+}
+
+}  // namespace
+
+double mobilised(const Bounds& found, std::size_t t, double factor) {
+  const Domain& domain = found.domain;
   const Strength s =
       domain.soils[static_cast<std::size_t>(domain.triangles[t].soil)].strength.reduced(factor).in_plane();
   const double phi = s.friction, c = s.cohesion;
@@ -87,42 +160,14 @@ double mobilised(const Domain& domain, const Bounds& found, std::size_t t, doubl
   return sum / 3.0;
 }
 
-// Largest shear strain rate of the velocities at a triangle's corners, taken linear between them.
-double shear_rate(const Domain& domain, const Bounds& found, const Triangle& t) {
-  const auto x = corners(domain, t);
-  const double area = 2.0 * domain.area(t);
-  double xx = 0.0, yy = 0.0, xy = 0.0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector2 side = x[(i + 2) % 3] - x[(i + 1) % 3], g(-side.y() / area, side.x() / area);
-    const Vector2 v = found.velocity.col(t.node[i]);
-    xx += g.x() * v.x();
-    yy += g.y() * v.y();
-    xy += g.y() * v.x() + g.x() * v.y();
-  }
-  return std::hypot(xx - yy, xy);
+double shown_factor(const Bounds& found, Quantity quantity) {
+  return quantity == Quantity::strength && found.lower.value ? std::max(*found.lower.value, 1e-6) : 1.0;
 }
 
-void draw_stress(std::string& out, const Frame& frame, const Bounds& found, double factor) {
-  for (std::size_t t = 0; t < found.domain.triangles.size(); ++t)
-    add_triangle(out, frame, corners(found.domain, found.domain.triangles[t]),
-                 hex(viridis(mobilised(found.domain, found, t, factor))));
+bool contradicts(const Bounds& found, const OtherAnswer& other) {
+  return other.associated && other.remark.empty() && other.upper && found.lower.value &&
+         *other.upper < *found.lower.value;
 }
-
-void draw_mechanism(std::string& out, const Frame& frame, const Bounds& found) {
-  std::vector<double> rate;
-  for (const Triangle& t : found.domain.triangles) rate.push_back(shear_rate(found.domain, found, t));
-  std::vector<double> sorted = rate;
-  std::ranges::sort(sorted);
-  const double most = std::max(sorted[(sorted.size() - 1) * 95 / 100], 1e-300);
-  const double moved = 0.05 * std::max(frame.high.x() - frame.low.x(), frame.high.y() - frame.low.y());
-  for (std::size_t t = 0; t < rate.size(); ++t) {
-    auto x = corners(found.domain, found.domain.triangles[t]);
-    for (std::size_t i = 0; i < 3; ++i) x[i] += moved * found.velocity.col(found.domain.triangles[t].node[i]);
-    add_triangle(out, frame, x, hex(viridis(std::sqrt(rate[t] / most))));
-  }
-}
-
-}  // namespace
 
 std::string quantity_words(const Domain& domain, Quantity quantity) {
   if (quantity == Quantity::strength) return "factor of safety";
@@ -155,7 +200,7 @@ std::string to_text(const Model& model, const Ground& ground, Quantity quantity,
   fmt::format_to(to(text), "{} {}\n", quantity_words(found.domain, quantity), bracket_words(found));
   text += bound_line("lower", found.lower, "least reserve to yield");
   text += bound_line("upper", found.upper, "least reserve of dilation");
-  for (const OtherAnswer& other : others) fmt::format_to(to(text), "  {:<32}{}\n", other.name, other.words);
+  if (!others.empty()) text += answers_table(found, others);
   return text;
 }
 
@@ -167,6 +212,19 @@ std::string to_csv(const Bounds& found, int digits) {
     };
     fmt::format_to(to(text), "{},{},{}\n", round.triangles, number(round.lower), number(round.upper));
   }
+  return text;
+}
+
+std::string answers_csv(const Bounds& found, const std::vector<OtherAnswer>& others, int digits) {
+  const auto number = [&](const std::optional<double>& v) {
+    return v ? fmt::format("{:.{}g}", *v, digits) : "";
+  };
+  std::string text = "answer,lower,upper,proved\n";
+  fmt::format_to(to(text), "\"bounds, psi = phi\",{},{},{}\n", number(found.lower.value),
+                 number(found.upper.value), found.lower.value && found.upper.value ? 1 : 0);
+  for (const OtherAnswer& other : others)
+    fmt::format_to(to(text), "\"{}\",{},{},{}\n", other.name, number(other.lower), number(other.upper),
+                   other.remark.empty() ? 1 : 0);
   return text;
 }
 
@@ -196,27 +254,29 @@ std::string fields_svg(const Model& model, Quantity quantity, const Bounds& foun
                        const std::vector<OtherAnswer>& others) {
   constexpr double kPanel = 620.0, kEdge = 30.0, kTop = 96.0;
   const Frame left(found.domain, kPanel, kEdge, kTop);
-  const double step = left.width() + 2.0 * kEdge;
-  const Frame right(found.domain, kPanel, kEdge + step, kTop);
-  const double bottom = kTop + left.height() + kEdge;
-  std::string out = svg::open(static_cast<int>(2.0 * step + kEdge),
-                              static_cast<int>(bottom + 20.0 * static_cast<double>(others.size()) + 20.0));
+  const double step = left.width() + 2.0 * kEdge, down = left.height() + 2.5 * kEdge;
+  const double rows = 1.0 + static_cast<double>((others.size() + 1) / 2);
+  std::string out = svg::open(static_cast<int>(2.0 * step + kEdge), static_cast<int>(kTop + rows * down));
   svg::text_within(out, kEdge, 24.0, title_of(model), svg::kTitleFont, 2.0 * step, "start", svg::kBold);
   svg::text(out, kEdge, 46.0, quantity_words(found.domain, quantity) + " " + bracket_words(found), svg::kFont,
             "start");
-  svg::text_within(out, kEdge, 76.0,
-                   "lower bound " + words_of(found.lower.value) + ": strength mobilised, 0 to 1", svg::kFont,
-                   left.width() + kEdge, "start");
-  svg::text_within(out, kEdge + step, 76.0,
-                   "upper bound " + words_of(found.upper.value) + ": mechanism, rate of shear strain",
-                   svg::kFont, left.width() + kEdge, "start");
-  const double factor =
-      quantity == Quantity::strength && found.lower.value ? std::max(*found.lower.value, 1e-6) : 1.0;
-  if (found.stress.cols() > 0) draw_stress(out, left, found, factor);
-  if (found.velocity.cols() > 0) draw_mechanism(out, right, found);
-  for (std::size_t i = 0; i < others.size(); ++i)
-    svg::text(out, kEdge, bottom + 20.0 * static_cast<double>(i), others[i].name + ": " + others[i].words,
-              svg::kFont, "start");
+  const auto panel = [&](std::size_t place, const std::string& caption) {
+    const double x = kEdge + (place % 2 == 0 ? 0.0 : step), y = kTop + down * static_cast<double>(place / 2);
+    svg::text_within(out, x, y - 20.0, caption, svg::kFont, left.width() + kEdge, "start");
+    return Frame(found.domain, kPanel, x, y);
+  };
+  const Frame stress = panel(0, "lower bound " + words_of(found.lower.value) + ": strength mobilised, 0 to 1");
+  if (found.stress.cols() > 0) draw_stress(out, stress, found, shown_factor(found, quantity));
+  const Frame motion =
+      panel(1, "upper bound " + words_of(found.upper.value) + ": mechanism, rate of shear strain");
+  draw_mechanism(out, motion, mechanism_of(found));
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const OtherAnswer& other = others[i];
+    const Frame frame =
+        panel(2 + i, fmt::format("{}: {} to {}{}", other.name, words_of(other.lower), words_of(other.upper),
+                                 other.remark.empty() ? "" : ", NOT PROVED"));
+    draw_mechanism(out, frame, other.mechanism);
+  }
   return out + std::string(svg::kClose);
 }
 

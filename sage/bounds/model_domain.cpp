@@ -35,12 +35,21 @@ struct Side {
 
 class GroundMaker {
  public:
-  GroundMaker(const Model& model, int first_live, int stage)
-      : m_(model), first_live_(first_live), stage_(stage), activity_(model) {
+  GroundMaker(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns)
+      : m_(model), first_live_(first_live), stage_(stage), activity_(model), unknowns_(unknowns) {
     for (int s = 0; s <= stage; ++s) activity_.enter(m_.stages[at(s)]);
+  }
+  bool wants_heads() const {
+    for (std::size_t g = 0; g < m_.groups.size(); ++g) {
+      const WaterCard* card = is_ground(g) ? water_card(m_, stage_, static_cast<int>(g)) : nullptr;
+      if (card != nullptr && card->kind == WaterKind::heads) return true;
+    }
+    return false;
   }
 
   Ground make() {
+    if (m_.stages[at(stage_)].strength_factor > 0.0)
+      ground_.stated_factor = m_.stages[at(stage_)].strength_factor;
     check_groups();
     add_soils();
     add_triangles();
@@ -71,6 +80,12 @@ class GroundMaker {
         reject("S571", group.where,
                fmt::format("{} ({}) is a structure: bounds know soil and interfaces only", named(group),
                            group.element_name));
+      if (group.second_material >= 0)
+        reject("S577", group.where,
+               fmt::format(
+                   "{} ({}) solves for the pressure of its pore water, which the load path decides; use an "
+                   "element without it, and water cards or the undrained strength",
+                   named(group), group.element_name));
       check_law(group);
     }
   }
@@ -129,11 +144,11 @@ class GroundMaker {
                                         material.law_name,
                                         material.parameter(ParameterRole::strength).value_or(0.0), phi));
     const auto psi = material.parameter(ParameterRole::dilation_angle);
-    const double strength_factor = m_.stages[at(stage_)].strength_factor;
-    if (strength_factor > 0.0 && ground_.notes.empty())
-      ground_.notes.push_back(fmt::format(
-          "the strengths of stage {} are divided by {:.6g} already: a factor of safety counts from there",
-          m_.stages[at(stage_)].number, strength_factor));
+    if (ground_.stated_factor != 1.0 && ground_.notes.empty())
+      ground_.notes.push_back(
+          fmt::format("the strengths of stage {} are divided by {:.6g} already; a factor of safety counts from "
+                      "the deck's own",
+                      m_.stages[at(stage_)].number, ground_.stated_factor));
     if (psi && *psi < phi)
       ground_.notes.push_back(
           fmt::format("material {}: the bounds have psi = phi = {:.6g}; the deck has psi = {:.6g}",
@@ -395,16 +410,15 @@ class GroundMaker {
   void add_water() {
     std::vector<char> groups(m_.groups.size(), 0);
     for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = activity_.group[g];
-    auto water = std::make_shared<PorePressure>(m_, stage_, groups, activity_.dof_map, nullptr);
+    auto water = std::make_shared<PorePressure>(m_, stage_, groups, activity_.dof_map, unknowns_);
     bool any = false;
     for (std::size_t g = 0; g < m_.groups.size(); ++g) {
       const WaterCard* card = is_ground(g) ? water->card(g) : nullptr;
       if (card == nullptr) continue;
       any = true;
-      if (card->kind == WaterKind::heads)
-        reject(
-            "S577", card->where,
-            "pore pressures from the heads of flow elements are not known without a run: give them at nodes");
+      if (card->kind == WaterKind::heads && unknowns_ == nullptr)
+        reject("S577", card->where,
+               "pore pressures from the heads of flow elements need the heads at the start of the stage");
     }
     if (!any) return;
     for (const Side& side : sides_) {
@@ -469,6 +483,7 @@ class GroundMaker {
   const Model& m_;
   int first_live_, stage_;
   Activity activity_;
+  const Eigen::VectorXd* unknowns_;
   Ground ground_;
   std::vector<int> soil_of_;
   std::map<int, int> node_;
@@ -479,8 +494,12 @@ class GroundMaker {
 
 }  // namespace
 
-Ground make_ground(const Model& model, int first_live, int stage) {
-  return GroundMaker(model, first_live, stage).make();
+Ground make_ground(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns) {
+  return GroundMaker(model, first_live, stage, unknowns).make();
+}
+
+bool wants_heads(const Model& model, int stage) {
+  return GroundMaker(model, stage, stage, nullptr).wants_heads();
 }
 
 }  // namespace sage::bounds

@@ -366,6 +366,16 @@ void read_parameters(Builder& b, Material& m, const SourcePosition& where, const
   }
 }
 
+// Of laws with one friction angle and one dilation angle.
+void associate(Material& m) {
+  const int phi = m.entry->find(ParameterRole::friction_angle),
+            psi = m.entry->find(ParameterRole::dilation_angle);
+  if (!m.entry->for_solids() || phi < 0 || psi < 0) return;
+  m.parameters[static_cast<std::size_t>(psi)] = m.parameters[static_cast<std::size_t>(phi)];
+  const int flow = m.entry->find("flow");  // of cones: 1 without volume change
+  if (flow >= 0) m.parameters[static_cast<std::size_t>(flow)] = 0.0;
+}
+
 void read_material(Builder& b, const CardView& card, const std::vector<CardView>& parameter_cards) {
   Material material;
   material.number = card.integer("number");
@@ -405,6 +415,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   const int before = b.problems.errors();
   read_parameters(b, m, where, given, parameter_cards);
   if (b.problems.errors() > before) return;
+  if (b.options.associated) associate(m);
   try {
     m.law = entry->law_for(m.parameters, b.model.units, m.name);
   } catch (const ParameterError& e) {

@@ -1071,9 +1071,16 @@ constexpr MessageEntry kMessages[] = {
      "soil to "
      "soil."},
     {"S577", "the pore pressure has no bounds",
-     "Bounds need pore pressures that are given: lines, r_u or values at nodes. Heads are known only after a "
-     "run.",
-     "Run the seepage stage and give the pressures at nodes."},
+     "Bounds need pore pressures that are given: lines, r_u, values at nodes, or heads of flow elements at the "
+     "start of the stage. Those of elements that solve for the pressure of pore water depend on the load path.",
+     "Mend the stages before, or give the pressures at nodes. In place of consolidation use the undrained "
+     "strength."},
+    {"S578", "finite elements contradict the bounds",
+     "With psi = phi no equilibrium was found at a factor of safety below the lower bound, whose stress field "
+     "is "
+     "in equilibrium. One of the two is wrong.",
+     "Search with more iterations: sagefe safety DECK --iterations 200. Compare the loads and supports of "
+     "both."},
 
     // S6: results, checkpoints and result files.
     {"S585", "initial stresses raise the preconsolidation pressure",
