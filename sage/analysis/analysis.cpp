@@ -81,6 +81,7 @@ Analysis::Stages::Stages(const Model& model, const Catalogue& catalogue, RunSett
       system_(model, catalogue, settings_, result_.work),
       extent_(model) {
   const int dofs = system_.assembly().dof_map().dofs();
+  state_.path.policy = make_stepping_policy(settings_.skips);
   if (settings_.profile_memory) result_.work.profile = Profile(true);
   run_.profile().show_in(settings_.pulse);
   state_.u.setZero(dofs);

@@ -66,7 +66,7 @@ NewtonStep DampedSteps::attempt(StepReport& report, double from, double to, cons
   NewtonStep step = failed;
   for (const double fall : kFalls) {
     report.total_iterations += static_cast<int>(step.iterations.size());
-    state.path.forget_way();
+    state.path.policy->forget(SteppingPolicy::Past::last_step);
     run_.assembly().drop_step();
     state.du.setZero();
     run_.set_step_time(from, 0.0);

@@ -10,7 +10,7 @@ namespace sage {
 NewtonStep FreeSurfaceSearch::attempt(double from, double to) {
   const bool eased = run_.assembly().eases();
   if (!run_.system.has_exits() && !eased) return stepper_.attempt(from, to, Stepper::Begin::committed);
-  run_.state.path.repeats.forget();
+  run_.state.path.policy->forget(SteppingPolicy::Past::last_step);
   if (run_.system.has_exits()) run_.system.start_exits(run_.state.u, to - from);
   return eased ? settle_surface(from, to) : settle_exits(from, to, false);
 }

@@ -34,7 +34,8 @@ bool halve(StepIteration& step, double old_norm) {
   for (int trial = 0; trial < kTrials && step.residual_size() > old_norm; ++trial) {
     step.move(-0.5 * step.step_length);
     step.step_length *= 0.5;
-    if (step.assemble(step.new_K_each_iteration()) == Outcome::cut_step) return false;
+    if (step.assemble(step.policy.makes_K(step, IterationPolicy::Pass::line_search)) == Outcome::cut_step)
+      return false;
   }
   return true;
 }
@@ -53,7 +54,8 @@ bool search_zero_slope(StepIteration& step, double old_norm) {
     const double next = std::clamp(zero, a + 0.1 * (b - a), b - 0.1 * (b - a));
     step.move(next - length);
     length = next;
-    if (step.assemble(step.new_K_each_iteration()) == Outcome::cut_step) return false;
+    if (step.assemble(step.policy.makes_K(step, IterationPolicy::Pass::line_search)) == Outcome::cut_step)
+      return false;
     slope = step.work_left();
     const bool beyond = between && slope_a * slope > 0.0;  // the zero lies between here and b
     (beyond ? a : b) = next;

@@ -1,9 +1,8 @@
 #include "sage/analysis/newton.hpp"
 
 #include "sage/analysis/acceleration.hpp"
-#include "sage/analysis/contraction.hpp"
 #include "sage/analysis/line_search.hpp"
-#include "sage/analysis/newton_skips.hpp"
+#include "sage/analysis/step_iteration.hpp"
 
 namespace sage {
 
@@ -20,17 +19,12 @@ bool flows(const StepIteration& step) {
   return last > kMuch && (last > kTimes * first || (done.size() >= kPatience && last >= first));
 }
 
-// Whether the tangent at du must be made before the next correction.
-bool needs_K(const StepIteration& step, double norm, double old_norm) {
-  return step.settings.contract ? contracts_poorly(norm, old_norm) : step.full_newton() && !step.K_is_here;
-}
-
 void finish(StepIteration& step) {
   constexpr double kLoose = 1e-6;  // tolerance above which a kept tangent alone ends no step
   if (step.accelerated() && step.settings.tolerance > kLoose)
     finish_with_newton(step);
   else
-    polish(step);
+    step.policy.end(step);
 }
 
 // Newton's method.  With a tangent that is not that of the iterate (modified Newton, initial stiffness) earlier corrections
@@ -40,7 +34,7 @@ void iterate(StepIteration& step) {
   double old_norm = step.residual_size();
   if (step.accelerated()) acceleration.improve(step.correction);
   for (int i = 1; i <= step.settings.max_iterations; ++i) {
-    const bool with_K = step.new_K_each_iteration() && !ends_with_next_correction(step);
+    const bool with_K = step.policy.makes_K(step, IterationPolicy::Pass::correction);
     if (step.assemble(with_K) == Outcome::cut_step || !search_line(step, i, old_norm)) return;
     if (step.is_hopeless()) {
       step.result.flows = step.settings.stop_at_flow;
@@ -48,9 +42,9 @@ void iterate(StepIteration& step) {
     }
     if (step.converged()) return finish(step);
     step.result.flows = flows(step);
-    if (step.result.flows || strays(step) || i == step.settings.max_iterations) break;
+    if (step.result.flows || step.policy.gives_up(step) || i == step.settings.max_iterations) break;
     const double norm = step.residual_size();
-    if (needs_K(step, norm, old_norm) && step.form_tangent() == Outcome::cut_step) return;
+    if (step.policy.needs_K(step, norm, old_norm) && step.form_tangent() == Outcome::cut_step) return;
     step.solve();
     if (step.accelerated()) {
       if (norm > 2.0 * old_norm) acceleration.restart();
@@ -69,7 +63,7 @@ NewtonStep newton_step(Assembly& assembly, Tangent& tangent, const Eigen::Vector
                        WorkCounters& work, Eigen::VectorXd& du) {
   try {
     StepIteration step(assembly, tangent, target, rate_part, settings, work, du);
-    if ((settings.repeat > 0.0 && repeat_step(step)) || !step.predict(rate)) return step.result;
+    if (!step.policy.begin(step, rate)) return step.result;
     if (settings.damping_fall > 0.0)
       iterate_damped(step);
     else if (settings.method == Method::dogleg)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sage/analysis/assembly.hpp"
+#include "sage/analysis/iteration_policy.hpp"
 #include "sage/analysis/tangent.hpp"
 
 namespace sage {
@@ -10,7 +11,6 @@ namespace sage {
 enum class NewtonStart {
   committed,  // at the state before the step, with the tangent at hand
   nearby,     // du is near the answer, except for what supports prescribe
-  last_way,   // du is the step before, scaled to the size of this one
 };
 
 struct NewtonSettings {
@@ -18,20 +18,18 @@ struct NewtonSettings {
   int max_iterations = 25;
   double tolerance = 1e-8;  // force and energy; displacement sqrt(tolerance)
   bool line_search = true;
-  // Relative residual that the step before, in du, may leave if it is taken once more; 0 = that is not tried.
-  double repeat = 0.0;
   const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
   StageSoFar so_far{};                         // from which a condensed region extrapolates
   Pulse* pulse = nullptr;                      // receives every iteration; null = none does
   bool stop_at_flow = false;                   // gives up a step that turns into flow (NewtonStep::flows)
   NewtonStart start = NewtonStart::committed;
-  bool refine = false;  // a first correction is not enough, even if it leaves only rounding
+  IterationPolicy* policy = nullptr;  // null = the plain one
+  bool refine = false;                // a first correction is not enough, even if it leaves only rounding
   // Every correction is held back by a share of the elastic stiffness (Tangent::has_elastic), which falls with the
   // residual: for steps that Newton's corrections find no end of.  The largest part of the share that a correction
   // leaves to the next one; 0 = no damping.
   double damping_fall = 0.0;
   const std::vector<char>* of_solids = nullptr;  // by dof: a solid has it; damped alone
-  bool contract = false;  // factors are kept while they contract well; K may then be behind du at the end
   // Of the model: its unknowns, and its size, the longest arm that a force has; null: moments have no measure in forces.
   const std::vector<UnknownField>* unknowns = nullptr;
   double size = 0.0;
@@ -41,7 +39,6 @@ enum class StepOutcome { converged, not_converged, law_cut, singular };
 
 struct NewtonStep {
   StepOutcome outcome = StepOutcome::not_converged;
-  bool repeated = false;  // the step is a copy of the one before
   bool crept = false;     // its larger part has been committed before (StepControl::creep, relax)
   bool finished = false;  // a kept tangent was replaced by the consistent one at the end
   bool flows =

@@ -5,8 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "sage/analysis/prediction.hpp"
-#include "sage/analysis/repeats.hpp"
+#include "sage/analysis/stepping_policy.hpp"
 #include "sage/core/archive.hpp"
 
 namespace sage {
@@ -24,8 +23,7 @@ struct StagePath {
   Eigen::VectorXd u_start;                      // unknowns at its start, where a region is condensed
   // Of excess pressures, what has come or gone where stages before held them and this one does not; empty = no such field.
   Eigen::VectorXd let_in;
-  Repeats repeats;
-  Prediction prediction;                        // the last step is RunState::du
+  std::unique_ptr<SteppingPolicy> policy = std::make_unique<SteppingPolicy>();
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
@@ -42,15 +40,9 @@ struct StagePath {
     relaxed = 0;
     loose_part.clear();
   }
-  // The next attempt neither repeats the last steps nor goes their way.
-  void forget_way() {
-    repeats.forget();
-    prediction.forget();
-  }
   // What is known of the last steps.
   void forget_steps() {
-    repeats.forget();
-    prediction = {};
+    policy->forget(SteppingPolicy::Past::stage);
     last_size = stiffest = last_stiffness = 0.0;
   }
 };
@@ -73,8 +65,7 @@ struct RunState {
   void exchange_path(Archive& archive) {
     archive(du);
     archive(u_before);
-    path.repeats.exchange(archive);
-    path.prediction.exchange(archive);
+    path.policy->exchange(archive);
     archive(path.last_size);
     archive(path.stiffest);
     archive(path.last_stiffness);

@@ -69,7 +69,7 @@ bool StepControl::take_increment(StepReport& report) {
     const double to = size >= end - state.reached - 1e-12 * whole ? end : state.reached + size;
     const double tried = to - state.reached;
     run_.show_progress(report, state.reached);
-    const bool went_on = stepper_.starts_from_last_step(tried);
+    const bool went_on = state.path.policy->begins_elsewhere(run_, tried);
     NewtonStep step = search_.attempt(state.reached, to);
     iterations += static_cast<int>(step.iterations.size());
     const bool last_cut = tried < 1.001 * std::ldexp(whole, -max_cuts_);
@@ -123,22 +123,18 @@ bool StepControl::record(StepReport& report, const NewtonStep& step, double size
 
 void StepControl::accept(StepReport& report, const NewtonStep& step, double to) {
   StagePath& path = run_.state.path;
-  Tangent& tangent = run_.tangent();
   const double size = to - run_.state.reached;
-  force_left_ = step.repeated ? step.iterations.back().force : step.force_left;
+  force_left_ = step.force_left;
   path.own_tangent = path.own_tangent || step.finished;
   stepper_.set_newton(Stepper::Newton::by_stage);
   const bool modified = run_.stage().method == Method::modified_newton && !path.own_tangent;
-  if (modified || (stepper_.contracts() && !stepper_.predicts())) renew_tangent();
-  const bool same_K = tangent.constant() || !tangent.changed();
-  const bool linear = step.iterations.size() == 1 && same_K;
-  if (!step.repeated) path.repeats.take(linear, size, step.iterations.back().force);
+  if (modified) renew_tangent();
+  path.policy->accept(run_, step, size, report.cuts > 0);
   on_last_way_ = false;
-  if (path.own_tangent) tangent.set_aside();
+  if (path.own_tangent) run_.tangent().set_aside();
   if (!step.crept) stiffness_.measure(size);
   move_to(to);
   keep_step(size);
-  path.prediction.take(report.cuts > 0);
   report.load_factor = to;
   ++report.substeps;
 }
@@ -187,7 +183,7 @@ void StepControl::drop_step() {
 // next: share of the stage of the next attempt; 0 = it starts at the committed state all the same.
 void StepControl::reject(double next) {
   RunState& state = run_.state;
-  state.path.forget_way();
+  state.path.policy->forget(SteppingPolicy::Past::last_step);
   on_last_way_ = false;
   drop_step();
   const bool keep_K = run_.tangent().constant() || run_.stage().method == Method::initial_stiffness;
@@ -246,7 +242,7 @@ bool StepControl::relax(StepReport& report, double end) {
     if (!record(report, relaxed_, to - state.reached)) break;
     accept(report, relaxed_, to);
     relaxation.show_strength();
-    state.path.forget_way();
+    state.path.policy->forget(SteppingPolicy::Past::last_step);
     ++state.path.relaxed;
   }
   if (state.reached == begin) refused_at_ = begin;
@@ -294,7 +290,7 @@ bool StepControl::tries_otherwise(const NewtonStep& step, bool went_on, double s
   StagePath& path = run_.state.path;
   // The direction of the last step may lead nowhere where the start from the committed state does not.
   if (went_on) {
-    path.prediction.fail();
+    path.policy->fail();
     reject(size);
     return true;
   }

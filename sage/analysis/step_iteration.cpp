@@ -15,6 +15,7 @@ StepIteration::StepIteration(Assembly& assembly_of_step, Tangent& tangent_of_ste
       work(counters),
       du(step),
       pass(assembly, target, part, settings.so_far),
+      policy(settings.policy != nullptr ? *settings.policy : plain_policy),
       rate_part(part),
       measures(assembly, tangent, target, settings, du),
       criterion(settings.tolerance, settings.refine, tangent.linear()),
@@ -67,12 +68,7 @@ bool StepIteration::predict(const Eigen::VectorXd& rate) {
   const bool committed = settings.start == NewtonStart::committed;
   if (!(committed ? start_from_committed() : start_from_du(rate))) return false;
   solve();
-  if (settings.start == NewtonStart::last_way && tangent.norm1() >= 0.0) {  // the solver keeps K
-    const Eigen::VectorXd way = free_part_of_du();
-    result.predicted_work = measures.take_first(way, tangent.times(way));
-  } else {
-    result.predicted_work = measures.take_first(correction, residual);
-  }
+  result.predicted_work = measures.take_first(correction, residual);
   if (committed) du = rate_part * rate;
   measures.take_prescribed(rate, rate_part);
   move(1.0);
@@ -98,12 +94,11 @@ bool StepIteration::start_from_committed() {
   return true;
 }
 
-// du is near the answer, or the direction of the step before: forces at the committed state are those before a pass at du.
+// du is near the answer.
 bool StepIteration::start_from_du(const Eigen::VectorXd& rate) {
-  if (settings.start == NewtonStart::last_way && !start_known) measures.take_start();
   take_prescribed(rate);
   if (form_tangent() == Outcome::cut_step) return false;
-  if (settings.start == NewtonStart::nearby) measures.take_start();
+  measures.take_start();
   form_residual();
   return true;
 }

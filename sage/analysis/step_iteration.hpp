@@ -43,7 +43,6 @@ struct StepIteration {
   bool full_newton() const {
     return (settings.method == Method::newton || settings.method == Method::dogleg) && !tangent.constant();
   }
-  bool new_K_each_iteration() const { return full_newton() && !settings.contract; }
   // Modified Newton and initial stiffness, accelerated.
   bool accelerated() const { return !full_newton() && !tangent.linear(); }
 
@@ -54,7 +53,9 @@ struct StepIteration {
   WorkCounters& work;
   Eigen::VectorXd& du;
   IteratedStep pass;
-  double rate_part;  // of the stage's prescribed displacements
+  IterationPolicy plain_policy;
+  IterationPolicy& policy;  // the plain one, or that of the settings
+  double rate_part;         // of the stage's prescribed displacements
   StepMeasures measures;
   ConvergenceCriterion criterion;
 

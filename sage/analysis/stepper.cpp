@@ -13,31 +13,6 @@ constexpr int kManyHeads = 20000;  // their rounding errors have one sign and ad
 
 }  // namespace
 
-bool Stepper::contracts() const {
-  return run_.settings.skips.contraction && run_.stage().method == Method::newton &&
-         !run_.tangent().constant() && is_large(run_.assembly().equations());
-}
-
-bool Stepper::predicts() const {
-  return run_.settings.skips.prediction && run_.stage().method == Method::newton && !run_.tangent().linear() &&
-         run_.assembly().condensation() == nullptr && run_.assembly().dof_map().only_displacement();
-}
-
-bool Stepper::starts_from_last_step(double size) const {
-  const StagePath& path = run_.state.path;
-  return path.prediction.due() && predicts() && !path.repeats.due(size);
-}
-
-// In a small linear scene a correction with kept factors costs little, and removes the rounding of the steps before, which
-// a repetition keeps.
-bool Stepper::can_repeat(double size) const {
-  const Method method = run_.stage().method;
-  const bool newton = method == Method::newton || method == Method::dogleg;
-  const bool pays = !run_.tangent().constant() || (!flow_alone_ && is_large(run_.assembly().equations()));
-  const bool flows = run_.stage().pores == PoreWater::flows;  // whatever loads do
-  return run_.settings.skips.repeats && !flows && newton && pays && run_.state.path.repeats.due(size);
-}
-
 NewtonSettings Stepper::settings() const {
   constexpr int kShort = 50;  // iterations of a finer attempt
   const Stage& stage = run_.stage();
@@ -59,17 +34,10 @@ NewtonSettings Stepper::settings() const {
 }
 
 NewtonStep Stepper::attempt(double from, double to, Begin begin) {
-  const double size = to - from;
-  StagePath& path = run_.state.path;
   NewtonSettings newton = settings();
-  if (begin == Begin::here) newton.start = NewtonStart::nearby;
-  if (begin == Begin::committed && starts_from_last_step(size)) {
-    newton.start = NewtonStart::last_way;
-    run_.state.du *= size / path.last_size;
-  }
-  if (can_repeat(size)) newton.repeat = path.repeats.limit(newton.tolerance, run_.tangent().constant());
-  newton.contract = contracts();
   newton.stop_at_flow = run_.settings.trials != nullptr;
+  if (begin == Begin::here) newton.start = NewtonStart::nearby;
+  run_.state.path.policy->prepare(run_, to - from, newton);
   return solve(from, to, newton);
 }
 

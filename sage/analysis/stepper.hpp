@@ -13,7 +13,7 @@ class Stepper {
   explicit Stepper(const RunParts& run) : run_(run), flow_alone_(is_flow_alone(run.model)) {}
 
   enum class Begin {
-    committed,  // at the committed state, or in the direction of the step before (Prediction)
+    committed,  // at the committed state, unless the policy of the path says otherwise
     here,       // RunState::du is near the answer, except for what supports prescribe
   };
   // Whether Newton's method takes the next attempt, whatever the method of its stage is.
@@ -29,11 +29,6 @@ class Stepper {
   NewtonStep attempt_damped(double from, double to, const Damping& damping);
   // A few corrections of Newton's method from a committed state near equilibrium at that load factor.
   NewtonStep attempt_near(double at);
-  // The attempt from the committed state would start in the direction of the step before.
-  bool starts_from_last_step(double size) const;
-
-  bool contracts() const;  // the skip 'contraction' applies
-  bool predicts() const;   // the skip 'prediction' may apply
 
   Newton newton() const { return newton_; }
   void set_newton(Newton newton) { newton_ = newton; }
@@ -41,7 +36,6 @@ class Stepper {
  private:
   NewtonSettings settings() const;
   NewtonStep solve(double from, double to, const NewtonSettings& settings);
-  bool can_repeat(double size) const;
 
   const RunParts& run_;
   bool flow_alone_;

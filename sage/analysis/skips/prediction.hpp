@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "sage/analysis/skips/wrapped_policy.hpp"
 #include "sage/core/archive.hpp"
 
 namespace sage {
@@ -31,6 +32,15 @@ class Prediction {
  private:
   bool due_ = false;
   int pause_ = 0, next_pause_ = 1;  // steps
+};
+
+// Iterations that begin in the direction of the last step: du is that step, scaled to the size of this one.
+class PredictedIteration final : public WrappedPolicy {
+ public:
+  bool begin(StepIteration& step, const Eigen::VectorXd& rate) override;
+  bool makes_K(const StepIteration& step, Pass pass) const override;
+  bool gives_up(const StepIteration& step) const override;
+  void end(StepIteration& step) override;
 };
 
 }  // namespace sage

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/analysis/skips/wrapped_policy.hpp"
 #include "sage/core/archive.hpp"
 
 namespace sage {
@@ -34,6 +35,25 @@ class Repeats {
   static constexpr double kRounding = 1e-14;
   double size_ = 0.0;   // of the last step, where it was linear; 0 = it was not
   double force_ = 0.0;  // of the last step that was solved
+};
+
+// The step before once more, if it leaves next to nothing unbalanced.
+class RepeatedStep final : public WrappedPolicy {
+ public:
+  // limit: relative residual that it may leave.  Nothing has been repeated yet.
+  void set_limit(double limit) {
+    limit_ = limit;
+    done_ = false;
+  }
+  bool done() const { return done_; }
+  void forget() { done_ = false; }
+  bool begin(StepIteration& step, const Eigen::VectorXd& rate) override;
+
+ private:
+  bool try_it(StepIteration& step) const;
+
+  double limit_ = 0.0;
+  bool done_ = false;
 };
 
 }  // namespace sage
