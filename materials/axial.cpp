@@ -26,8 +26,9 @@ const std::vector<Parameter>& one_way_rows() {
 }
 const std::vector<Parameter>& plastic_rows() {
   static const std::vector<Parameter> rows{
-      stiffness_row(), required("tension", Dimension::force, "largest tension"),
-      required("compression", Dimension::force, "largest compression, positive"), spacing_row()};
+      stiffness_row(), required("tension", Dimension::force, "largest tension", ParameterRole::strength),
+      required("compression", Dimension::force, "largest compression, positive", ParameterRole::strength),
+      spacing_row()};
   return rows;
 }
 

@@ -48,8 +48,10 @@ const std::vector<Parameter>& section_rows() {
 const std::vector<Parameter>& plastic_section_rows() {
   static const std::vector<Parameter> rows = [] {
     std::vector<Parameter> all = stiffness_rows();
-    all.push_back(required("axial_strength", Dimension::force, "N_p for each unit of width; 0: no limit"));
-    all.push_back(required("moment_strength", Dimension::moment, "M_p for each unit of width"));
+    all.push_back(required("axial_strength", Dimension::force, "N_p for each unit of width; 0: no limit",
+                           ParameterRole::strength));
+    all.push_back(
+        required("moment_strength", Dimension::moment, "M_p for each unit of width", ParameterRole::strength));
     add_other_rows(all);
     return all;
   }();

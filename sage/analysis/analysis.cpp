@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sage/analysis/audit.hpp"
+#include "sage/analysis/dissipation.hpp"
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/loads.hpp"
 #include "sage/analysis/pore_warnings.hpp"
@@ -252,7 +253,7 @@ void Analysis::Stages::fail(StepReport& report) {
     result_.reason = explain_failure(model_, assembly, report, step);
   }
   result_.reason = with_code(result_.reason, *result_.code);
-  if (settings_.trials != nullptr) settings_.trials->lost(state_.u + state_.du);
+  if (settings_.trials != nullptr) settings_.trials->lost(state_.u + state_.du, dissipation(run_, state_.du));
   leave_step();
   report.motion = result_.motion;
   run_.warn(motion_warnings(run_.stage(), result_.motion));

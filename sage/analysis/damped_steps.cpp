@@ -8,14 +8,17 @@
 
 namespace sage {
 
-// Whose dofs move the ground.
+// Whose dofs move the ground.  Frames without ground collapse by themselves.
 void DampedSteps::open_stage() {
+  const std::vector<GroupData>& groups = run_.assembly().groups();
   of_solids_.assign(static_cast<std::size_t>(run_.assembly().dof_map().displacements()), 0);
   has_walls_ = false;
-  for (const GroupData& data : run_.assembly().groups()) {
+  const bool ground =
+      std::ranges::any_of(groups, [](const GroupData& data) { return data.active && data.group->solid(); });
+  for (const GroupData& data : groups) {
     if (!data.active) continue;
     has_walls_ = has_walls_ || data.group->interface() || data.group->structure();
-    if (!data.group->solid()) continue;
+    if (!(ground ? data.group->solid() : data.group->structure())) continue;
     for (const int node : data.group->nodes)
       for (int c = 0; c < 2; ++c) of_solids_[static_cast<std::size_t>(DofMap::displacement(node, c))] = 1;
   }

@@ -1,5 +1,6 @@
 #include "sage/analysis/trial_run.hpp"
 
+#include "sage/analysis/dissipation.hpp"
 #include "sage/analysis/explain.hpp"
 
 namespace sage {
@@ -12,11 +13,14 @@ void TrialRun::run() {
   while (more) {
     control_.begin_trial(trials.max_cuts());
     run_.assembly().take_laws();
-    const TrialResult result = try_stage();
-    if (result.equilibrium)
+    TrialResult result = try_stage();
+    if (result.equilibrium) {
       kept = run_.keep_state();
-    else
+    } else {
       run_.restore_state(kept);
+      result.dissipation = dissipation(run_, result.motion);
+      run_.assembly().drop_step();
+    }
     more = trials.next(&result, run_.solution());
     stop_if_asked(run_.settings.stop_asked);
   }

@@ -20,7 +20,8 @@ struct TrialResult {
   std::string reason;      // without equilibrium: a page for a person
   Eigen::VectorXd motion;  // since the start of the trial, every dof: at its end, or of the last attempt
   std::vector<std::vector<double>>
-      strain;  // the same of strain, of each group: law_size x points; empty = none
+      strain;                       // the same of strain, of each group: law_size x points; empty = none
+  std::vector<double> dissipation;  // without equilibrium: of the motion (dissipation.hpp)
 };
 
 class Trials {
@@ -38,8 +39,9 @@ class Trials {
   virtual bool proves() const { return false; }
   // A failure of the stages before the trials leads to weaker laws, whatever its reason is: it is not worth much work.
   virtual bool descends() const { return false; }
-  // A stage before the trials found no equilibrium.  u: where its last attempt went, every dof.
-  virtual void lost(const Eigen::VectorXd& /*u*/) {}
+  // A stage before the trials found no equilibrium.  u: where its last attempt went, every dof; dissipation: of the motion
+  // of that attempt (dissipation.hpp).
+  virtual void lost(const Eigen::VectorXd& /*u*/, std::vector<double> /*dissipation*/) {}
 };
 
 }  // namespace sage

@@ -3,8 +3,11 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "sage/app/answer_run.hpp"
 #include "sage/app/commands.hpp"
@@ -156,6 +159,17 @@ Json safety_json(const SafetyOptions& options, const Meshes& meshes) {
   const auto number = [](std::optional<double> factor) { return factor ? Json(*factor) : Json(nullptr); };
   Json trials = Json::array(), table = Json::array();
   for (const FactorTrial& trial : found.trials) trials.push_back(trial_json(*last.model, trial));
+  Json reduce = Json::array(), fails = Json::array();
+  for (const PartName& row : kParts)
+    if (std::ranges::find(options.search.reduce, row.part) != options.search.reduce.end())
+      reduce.push_back(row.name);
+  for (const safety::Failing& part : found.failing) {
+    const Group& group = last.model->groups[part.group];
+    fails.push_back({{"part", name_of(part_of(group).value_or(ModelPart::soil))},
+                     {"group", group.number},
+                     {"name", json_text(group.name)},
+                     {"share", part.share}});
+  }
   for (const MeshResult& mesh : meshes.done)
     table.push_back({{"elements", mesh.elements},
                      {"dofs", mesh.dofs},
@@ -169,6 +183,8 @@ Json safety_json(const SafetyOptions& options, const Meshes& meshes) {
           {"incomplete", json_text(found.incomplete)},
           {"divided", json_list(found.reduced)},
           {"not_divided", json_list(found.untouched)},
+          {"reduce", std::move(reduce)},
+          {"fails", std::move(fails)},
           {"trials", std::move(trials)},
           {"meshes", std::move(table)}};
 }
@@ -251,6 +267,22 @@ void add_search_options(CLI::App& parser, SafetyOptions& o) {
       ->check(CLI::Range(0, 20));
 }
 
+// "soil,anchors".  Throws CLI::ValidationError.
+std::vector<ModelPart> parts_in(const std::string& list) {
+  std::vector<ModelPart> parts;
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto* const row = std::ranges::find(kParts, word, &PartName::name);
+    if (row == std::end(kParts))
+      throw CLI::ValidationError(
+          "--reduce", "'" + word + "' is no part; a list of soil, joints, anchors and walls was expected");
+    parts.push_back(row->part);
+  }
+  if (parts.empty())
+    throw CLI::ValidationError("--reduce", "a list of soil, joints, anchors and walls was expected");
+  return parts;
+}
+
 void add_choice_options(CLI::App& parser, SafetyOptions& o) {
   static const std::map<std::string, DilationRule> rules = [] {
     std::map<std::string, DilationRule> names;
@@ -273,18 +305,28 @@ void add_choice_options(CLI::App& parser, SafetyOptions& o) {
           "again)")
       ->check(CLI::IsMember(starts));
   parser
-      .add_option("--group", o.search.groups,
-                  "number of a group whose strength is divided; may be repeated (default: all)")
+      .add_option(
+          "--group", o.search.groups,
+          "number of a group whose strength is divided, of a part in --reduce; may be repeated (default: all)")
       ->allow_extra_args(false);
-  parser.add_flag("--interfaces", o.search.interfaces, "divide the strength of interfaces too");
-  parser.add_flag("--structures", o.search.structures, "divide the strength of structures too");
+  parser.add_option_function<std::string>(
+      "--reduce", [&o](const std::string& list) { o.search.reduce = parts_in(list); },
+      "parts whose strength is divided, separated by commas: soil (the default), joints, anchors (bars and "
+      "springs), walls (M_p and N_p of beams)");
+  // Flags come after the list, whatever their order.
+  const auto add = [&](const char* flag, std::vector<ModelPart> parts, const char* what) {
+    parser.add_flag_callback(
+        flag, [&o, parts] { o.search.reduce.insert(o.search.reduce.end(), parts.begin(), parts.end()); }, what);
+  };
+  add("--interfaces", {ModelPart::joints}, "adds joints to --reduce");
+  add("--structures", {ModelPart::anchors, ModelPart::walls}, "adds anchors and walls to --reduce");
 }
 
 constexpr const char* kSafetyExamples =
     "Examples:\n"
     "  sagefe safety slope.dat\n"
     "      both ends of a bracket of 0.01 for the factor, the reason for each, curve and mechanism\n"
-    "  sagefe safety wall.dat --stage 3 --interfaces --tolerance .005\n"
+    "  sagefe safety wall.dat --stage 3 --reduce soil,joints --tolerance .005\n"
     "  sagefe safety slope.dat --converge .01\n"
     "      finer and finer meshes, until the factor changes by less than 1 %";
 

@@ -21,7 +21,9 @@ Material reduced(const Material& from, double factor, const UnitSystem& units) {
   m.parameters = from.parameters;
   m.unit_weight = from.unit_weight;
   m.where = from.where;
-  if (reduce_strength(m.parameters, *m.entry, {factor, DilationRule::reduced}))
+  const ModelPart part = part_of(*m.entry).value_or(ModelPart::soil);
+  const bool divided = part == ModelPart::soil || part == ModelPart::joints;
+  if (divided && reduce_strength(m.parameters, *m.entry, {factor, DilationRule::reduced}))
     m.name += (m.name.empty() ? "strength / " : ", strength / ") + rounded_text(factor, 6);
   m.undrained = from.undrained;
   m.law = with_water(m.entry->law_for(m.parameters, units, from.name), m.undrained);

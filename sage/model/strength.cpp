@@ -28,7 +28,36 @@ double reduced_dilation(double psi, double phi_left, const StrengthReduction& re
   return psi;
 }
 
+ModelPart part_of_law(int components) {
+  switch (components) {
+    case 4:
+      return ModelPart::soil;
+    case 2:
+      return ModelPart::joints;
+    case 1:
+      return ModelPart::anchors;
+    default:
+      return ModelPart::walls;
+  }
+}
+
 }  // namespace
+
+std::string_view name_of(ModelPart part) {
+  for (const PartName& row : kParts)
+    if (row.part == part) return row.name;
+  return {};
+}
+
+std::optional<ModelPart> part_of(const MaterialEntry& entry) {
+  if (entry.flow || entry.of_pores) return {};
+  return part_of_law(entry.law_size);
+}
+
+std::optional<ModelPart> part_of(const Group& group) {
+  if (group.flow()) return {};
+  return part_of_law(group.element->traits().law_size);
+}
 
 bool has_strength(const MaterialEntry& entry) {
   return std::ranges::any_of(entry.parameters, [](const Parameter& p) { return is_strength(p.role); });

@@ -2,12 +2,32 @@
 // roles of its parameters; so laws of other programs and plug-ins take part like those of this tree.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "sage/model/model.hpp"
 
 namespace sage {
+
+// Parts of a model whose strengths are divided together.
+enum class ModelPart { soil, joints, anchors, walls };
+
+struct PartName {
+  ModelPart part;
+  std::string_view name, divided;
+};
+inline constexpr PartName kParts[] = {
+    {ModelPart::soil, "soil", "c, tan(phi) and tension limits of solids"},
+    {ModelPart::joints, "joints", "c, tan(phi) and tension limits of interfaces"},
+    {ModelPart::anchors, "anchors", "tension and compression of bars and springs"},
+    {ModelPart::walls, "walls", "M_p and N_p of beams"},
+};
+std::string_view name_of(ModelPart part);
+
+// To which part elements with this law, or those of a group, belong; nothing: they are of water.
+std::optional<ModelPart> part_of(const MaterialEntry& entry);
+std::optional<ModelPart> part_of(const Group& group);
 
 // What becomes of the dilation angle.
 enum class DilationRule {
@@ -37,7 +57,8 @@ bool has_strength(const MaterialEntry& entry);
 // Some material of a solid group has a dilation angle below its friction angle: flow is not associated.
 bool has_less_dilation(const Model& model);
 
-// parameters: as the deck writes them, perhaps fewer than the entry has.  Cohesions and tensile strengths / F, angles
+// parameters: as the deck writes them, perhaps fewer than the entry has.  Cohesions, tensile strengths, forces and moments
+// that a structure carries / F, angles
 // of friction atan(tan(phi) / F), dilation by the rule.  Numbers that are not positive (0, or -1 for "none") stay.
 // False: the law has no strength, nothing changes.
 bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "sage/analysis/extent.hpp"
 #include "sage/analysis/trials.hpp"
@@ -133,7 +134,10 @@ class Finder final : public Trials {
 
   bool next(const TrialResult* last, const Solution& now) override;
   int stage() const override { return safety_.stages; }
-  void lost(const Eigen::VectorXd& u) override { lost_ = u; }
+  void lost(const Eigen::VectorXd& u, std::vector<double> dissipation) override {
+    lost_ = u;
+    lost_dissipation_ = std::move(dissipation);
+  }
   bool proves() const override { return repeated_ == factor_; }
   bool descends() const override { return options_.start == Start::carried && !search_.lower(); }
   int max_cuts() const override {
@@ -169,6 +173,7 @@ class Finder final : public Trials {
   std::vector<LawPtr> laws_before_;            // until the run has taken the new ones
   Eigen::VectorXd u_start_;                    // when the strengths began to fall
   Eigen::VectorXd lost_;                       // where the last attempt of a failed run of the stages went
+  std::vector<double> lost_dissipation_;       // likewise
   double factor_ = 0.0, from_ = 0.0;           // in hand; whose state it begins with
   double repeated_ = 0.0;                      // the last factor that was tried again
   std::vector<double> undecided_;              // that stayed so when they were
@@ -179,8 +184,8 @@ class Finder final : public Trials {
 bool Finder::chosen(const Group& group) const {
   const bool listed =
       options_.groups.empty() || std::ranges::find(options_.groups, group.number) != options_.groups.end();
-  return listed && (group.solid() || (group.interface() && options_.interfaces) ||
-                    (group.structure() && options_.structures));
+  const std::optional<ModelPart> part = part_of(group);
+  return listed && part && std::ranges::find(options_.reduce, *part) != options_.reduce.end();
 }
 
 void Finder::check() const {
@@ -244,9 +249,12 @@ void Finder::choose_materials() {
 void Finder::keep_other_strengths() {
   const double stated = model_.stages[static_cast<std::size_t>(safety_.stages) - 1].strength_factor;
   if (stated <= 0.0 || stated == 1.0) return;
-  for (std::size_t i = 0; i < materials_.size(); ++i)
-    reduce_strength(strength_[i], *model_.materials[materials_[i]].entry,
-                    {1.0 / stated, DilationRule::reduced});
+  for (std::size_t i = 0; i < materials_.size(); ++i) {
+    const MaterialEntry& entry = *model_.materials[materials_[i]].entry;
+    const ModelPart part = part_of(entry).value_or(ModelPart::soil);
+    if (part == ModelPart::soil || part == ModelPart::joints)
+      reduce_strength(strength_[i], entry, {1.0 / stated, DilationRule::reduced});
+  }
 }
 
 void Finder::insert_trial_stage() {
@@ -301,6 +309,7 @@ void Finder::take_run(const RunResult& result, const LastState& last) {
     trial.released = last.report.load_factor;
     trial.verdict = last.report.flows ? Verdict::falls : Verdict::undecided;
     trial.proved = last.report.proved;
+    trial.dissipation = lost_dissipation_;
     trial.reason = fmt::format("stage {}: {}", last.report.stage + 1, why_not(model_, trial, attempt));
   }
   take(std::move(trial));
@@ -332,6 +341,7 @@ void Finder::run_from_start(double factor) {
   Observer* observers[] = {&last};
   settings_.trials = this;
   lost_.resize(0);
+  lost_dissipation_.clear();
   const std::size_t before = safety_.trials.size();
   RunSettings settings = settings_;
   if (options_.start == Start::anew && repeated_ != factor)
@@ -362,6 +372,7 @@ void Finder::take_trial(const TrialResult& result) {
     trial.released = result.report.load_factor;
     trial.verdict = result.report.flows ? Verdict::falls : Verdict::undecided;
     trial.proved = result.report.proved;
+    trial.dissipation = result.dissipation;
     trial.reason = why_not(model_, trial, attempt);
   }
   take(std::move(trial));
@@ -447,11 +458,37 @@ bool Finder::next(const TrialResult* last, const Solution& now) {
   return true;
 }
 
+bool is_structure(const Group& group) {
+  const std::optional<ModelPart> part = part_of(group);
+  return part == ModelPart::anchors || part == ModelPart::walls;
+}
+
+// A law that softens, and the elastic part of the motion, may leave a group with less than nothing.  Ground flows in every
+// collapse: what yields with it comes first.
+std::vector<Failing> shares_of(const Model& model, const std::vector<double>& dissipation) {
+  constexpr double kCounts = 0.005;
+  std::vector<Failing> failing;
+  double sum = 0.0;
+  for (std::size_t g = 0; g < dissipation.size(); ++g) {
+    if (!(dissipation[g] > 0.0)) continue;
+    failing.push_back({g, dissipation[g]});
+    sum += dissipation[g];
+  }
+  for (Failing& part : failing) part.share /= sum;
+  const auto rank = [&](const Failing& part) {
+    return part.share + (part.share > kCounts && is_structure(model.groups[part.group]) ? 1.0 : 0.0);
+  };
+  std::ranges::stable_sort(failing, std::ranges::greater{}, rank);
+  return failing;
+}
+
 void Finder::conclude() {
   if (!search_.bracketed())
     for (const double factor : undecided_) search_.falls(factor);
   safety_.lower = search_.lower();
   safety_.upper = search_.upper();
+  const FactorTrial* end = safety_.at(safety_.upper);
+  if (end != nullptr && end->verdict == Verdict::falls) safety_.failing = shares_of(model_, end->dissipation);
   const SearchLimits& limits = options_.limits;
   if (safety_.stopped)
     safety_.incomplete = "the search was interrupted";

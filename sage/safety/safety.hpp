@@ -24,11 +24,11 @@ struct Options {
   SearchLimits limits;
   DilationRule dilation = DilationRule::reduced;
   Start start = Start::carried;
-  int stage = -1;           // the last stage that is run, from 0; negative = the model's last
-  std::vector<int> groups;  // numbers of those whose strength is divided; empty = all
-  bool interfaces = false, structures = false;  // theirs too
-  int iterations = 40;                          // of an attempt
-  int cuts = 5;                                 // halvings of a factor's way before it is given up
+  int stage = -1;  // the last stage that is run, from 0; negative = the model's last
+  std::vector<ModelPart> reduce{ModelPart::soil};  // parts whose strength is divided
+  std::vector<int> groups;                         // numbers of those groups of the parts that are; empty = all
+  int iterations = 40;                             // of an attempt
+  int cuts = 5;                                    // halvings of a factor's way before it is given up
 };
 
 enum class Verdict {
@@ -52,8 +52,16 @@ struct FactorTrial {
       0.0;        // largest along an axis since the strengths began to fall; Start::anew: since the run began
   int node = -1;  // where: index
   std::vector<double> displacement_of_groups;  // the same of each group of the deck; empty where nothing moved
+  // Of each group of the deck, in the motion of a factor that falls: dissipation.hpp; empty = not known.
+  std::vector<double> dissipation;
   int iterations = 0, cuts = 0;
   long yielded = 0;  // points that yield, slip, are open, at the apex or cut off in tension
+};
+
+// A group that takes part in the collapse.
+struct Failing {
+  std::size_t group = 0;  // index
+  double share = 0.0;     // of the dissipation of all groups, 0 .. 1
 };
 
 struct Safety {
@@ -63,7 +71,9 @@ struct Safety {
   std::string incomplete;
   bool stopped = false;  // as RunSettings::stop_asked wanted
   std::vector<std::string> reduced,
-      untouched;           // materials: "1 clay (mohr_coulomb)", of the others with the reason
+      untouched;  // materials: "1 clay (mohr_coulomb)", of the others with the reason
+  // At the upper end that falls: structures that yield, then the others, the largest share first.  Empty = not known.
+  std::vector<Failing> failing;
   int stages = 0;          // that were run with factor 1
   double tolerance = 0.0;  // of the relative force
   // Motion and strain of the trial that shows the mechanism, as a state of the model: the upper end's, or where that

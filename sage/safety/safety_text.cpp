@@ -27,9 +27,24 @@ const char* dilation_words(DilationRule rule) {
   return "";
 }
 
+bool has(const Options& options, ModelPart part) {
+  return std::ranges::find(options.reduce, part) != options.reduce.end();
+}
+
+// "c / F, tan(phi) / F, tension limits / F; tan(psi) / F, like friction"
+std::string rule_words(const Options& options) {
+  std::string text;
+  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
+  if (has(options, ModelPart::soil) || has(options, ModelPart::joints))
+    add(std::string("c / F, tan(phi) / F, tension limits / F; ") + dilation_words(options.dilation));
+  if (has(options, ModelPart::anchors)) add("forces of anchors / F");
+  if (has(options, ModelPart::walls)) add("M_p and N_p of walls / F");
+  return text;
+}
+
 std::string head(const Model& model, const Options& options, const Safety& found) {
-  std::string text = fmt::format("{}: {}\nstrength reduction: c / F, tan(phi) / F, tension limits / F; {}\n",
-                                 model.file, model.title, dilation_words(options.dilation));
+  std::string text =
+      fmt::format("{}: {}\nstrength reduction: {}\n", model.file, model.title, rule_words(options));
   for (const std::string& line : found.reduced) fmt::format_to(to(text), "  divided      material {}\n", line);
   for (const std::string& line : found.untouched)
     fmt::format_to(to(text), "  not divided  material {}\n", line);
@@ -61,6 +76,20 @@ std::string end_line(const char* name, const Safety& found, std::optional<double
   return fmt::format("  {}  {:<10.6g}{}\n", name, *factor, trial->reason);
 }
 
+// What fails at the upper end, the largest part first.
+std::string failing_lines(const Model& model, const Safety& found) {
+  constexpr double kLeast = 0.005;
+  constexpr std::size_t kMost = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(found.failing.size(), kMost); ++i) {
+    const Failing& part = found.failing[i];
+    if (i > 0 && part.share < kLeast) break;
+    fmt::format_to(to(text), "  {}{:>5.1f} % of the dissipation  {}\n", i == 0 ? "fails    " : "         ",
+                   100.0 * part.share, part_words(model.groups[part.group]));
+  }
+  return text;
+}
+
 }  // namespace
 
 const char* verdict_word(Verdict verdict) {
@@ -75,6 +104,12 @@ const char* verdict_word(Verdict verdict) {
   return "";
 }
 
+std::string part_words(const Group& group) {
+  const std::optional<ModelPart> part = part_of(group);
+  return fmt::format("{}: group {}{}", part ? name_of(*part) : "water", group.number,
+                     group.name.empty() ? "" : " (" + group.name + ")");
+}
+
 std::string bracket_words(const Safety& found) {
   if (found.lower && found.upper) return fmt::format("between {:.6g} and {:.6g}", *found.lower, *found.upper);
   if (found.lower) return fmt::format("above {:.6g}", *found.lower);
@@ -86,6 +121,7 @@ std::string to_text(const Model& model, const Options& options, const Safety& fo
   std::string text = head(model, options, found) + table(model, found);
   fmt::format_to(to(text), "safety factor {}\n", bracket_words(found));
   text += end_line("lower end", found, found.lower) + end_line("upper end", found, found.upper);
+  text += failing_lines(model, found);
   if (!found.incomplete.empty()) fmt::format_to(to(text), "  NOT PROVED: {}\n", found.incomplete);
   return text;
 }

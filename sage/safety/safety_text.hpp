@@ -12,6 +12,9 @@ const char* verdict_word(Verdict verdict);
 // "between 1.375 and 1.38125", "above 20": what is known.
 std::string bracket_words(const Safety& found);
 
+// "anchors: group 20 (tie)".
+std::string part_words(const Group& group);
+
 // What was divided, a row a factor, and both ends with their reasons.
 std::string to_text(const Model& model, const Options& options, const Safety& found);
 // A row a factor, as they were tried.

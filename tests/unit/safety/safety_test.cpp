@@ -159,7 +159,7 @@ TEST(Safety, SlabOnASlopeIsTheInfiniteSlope) {
     const double b = row.beta * kDegree, expected = row.c / (row.weight * row.z * std::sin(b) * std::cos(b)) +
                                                     std::tan(row.phi * kDegree) / std::tan(b);
     Options options;
-    options.interfaces = true;
+    options.reduce = {ModelPart::soil, ModelPart::joints};
     options.limits.tolerance = 1e-6;
     expect_around(find(slab(row.c, row.phi, row.weight, row.z * std::cos(b), row.beta, 23), options), expected,
                   1e-6);
@@ -179,7 +179,7 @@ TEST(Safety, SlabWithSeepageAlongTheSlope) {
     deck.water_unit_weight = 9.81 * std::cos(b);  // of ten columns
     deck.water(1, 0, 1, 0, {0.0, row.wet * depth});
     Options options;
-    options.interfaces = true;
+    options.reduce = {ModelPart::soil, ModelPart::joints};
     options.limits.tolerance = 1e-6;
     const Safety found = find(deck, options);
     ASSERT_TRUE(found.complete()) << found.incomplete;
@@ -360,7 +360,7 @@ TEST_P(WallsInJoints, CollapseIsThatOfTheGround) {
   wall.scene.tip_spring = wall.spring;
   Options options;
   options.limits.start = wall.start;
-  options.interfaces = wall.interfaces;
+  if (wall.interfaces) options.reduce.push_back(ModelPart::joints);
   options.start = wall.from;
   const Safety found = find_with_fewer_trials(wall.scene.deck(), options);
   expect_within(found, wall.low, wall.high);
