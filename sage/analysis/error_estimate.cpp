@@ -104,8 +104,10 @@ std::optional<Matrix4> stiffness(const SolidLaw& law) {
   return out.D;
 }
 
-// A group that is activated in a later stage strains from the displacements of then.
+// A group that is activated in a later stage strains from the displacements of then, and none from those that count from
+// a later stage.
 bool starts_later(const Model& model, std::size_t group) {
+  if (std::ranges::any_of(model.stages, &Stage::resets_displacements)) return true;
   for (std::size_t s = 1; s < model.stages.size(); ++s)
     if (std::ranges::find(model.stages[s].births, static_cast<int>(group)) != model.stages[s].births.end())
       return true;

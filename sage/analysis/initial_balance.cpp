@@ -15,7 +15,9 @@ std::vector<char> stressed_groups(const Model& model, const Activity& activity, 
   const Stage& now = model.stages[static_cast<std::size_t>(stage)];
   std::vector<char> flags(model.groups.size(), 0);
   const auto mark = [&](const InitialStress& initial) {
-    if (initial.kind == InitialKind::history) return;
+    if (is_about_law(initial.kind) || initial.kind == InitialKind::history ||
+        initial.kind == InitialKind::lock_off)
+      return;
     const auto g = static_cast<std::size_t>(initial.group);
     flags[g] = initial.kind != InitialKind::zero && activity.group[g];
   };
@@ -69,7 +71,9 @@ InitialImbalance initial_imbalance(const Model& model) {
   if (model.stages.empty()) return {};
   const Stage& first = model.stages.front();
   // A history has no forces, but the law may refuse it.
-  const auto stressed = [](const InitialStress& initial) { return initial.kind != InitialKind::zero; };
+  const auto stressed = [](const InitialStress& initial) {
+    return states_stress(initial.kind) || initial.kind == InitialKind::history;
+  };
   if (!std::ranges::any_of(model.initials, stressed) && !std::ranges::any_of(first.initials, stressed) &&
       !has_own_start(model))
     return {};

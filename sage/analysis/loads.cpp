@@ -6,6 +6,7 @@
 
 #include "sage/analysis/step_time.hpp"
 #include "sage/core/start_adjustment.hpp"
+#include "sage/model/law_table.hpp"
 #include "sage/model/spread_loads.hpp"
 
 namespace sage {
@@ -84,6 +85,9 @@ Vector4 solid_stress(const InitialStress& initial, const Vector2& x, double u) {
       return -Vector4(initial.value[0], initial.value[1], initial.value[2], initial.value[3]);
     case InitialKind::zero:
     case InitialKind::history:
+    case InitialKind::lock_off:
+    case InitialKind::material:
+    case InitialKind::parameter:
       break;
   }
   return Vector4::Zero();
@@ -99,7 +103,8 @@ const InitialStress* neighbour_of(const Model& model, const InitialStress& joint
     for (const InitialStress& initial : list) {
       own = own || &initial == &joint;
       const Group& group = model.groups[static_cast<std::size_t>(initial.group)];
-      if (initial.kind != InitialKind::history && group.number == number && group.solid()) found = &initial;
+      const bool of_stress = states_stress(initial.kind) || initial.kind == InitialKind::zero;
+      if (of_stress && group.number == number && group.solid()) found = &initial;
     }
     return own;
   };
@@ -134,10 +139,11 @@ void start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, S
   count.adjusted += adjusts_start(law, sigma) ? 1 : 0;
 }
 
-// At a point of an element; x: its nodes.  neighbour: whose traction an interface takes.  u: pore pressure.
+// At a point of an element; x: its nodes.  neighbour: whose traction an interface takes.  u: pore pressure.  spacing: of
+// bars.
 template <int N>
 Vector<N> initial_stress(const InitialStress& initial, const InitialStress* neighbour, const Group& group,
-                         const Eigen::Matrix2Xd& x, int point, double u) {
+                         const Eigen::Matrix2Xd& x, int point, double u, double spacing) {
   if constexpr (N == 4)
     if (group.solid()) return solid_stress(initial, group.element->position(x, point), u);
   if constexpr (N == 2)
@@ -146,6 +152,7 @@ Vector<N> initial_stress(const InitialStress& initial, const InitialStress* neig
   Vector<N> sigma = Vector<N>::Zero();
   if (initial.kind == InitialKind::uniform)
     for (int i = 0; i < N; ++i) sigma[i] = -initial.value[static_cast<std::size_t>(i)];
+  if (initial.kind == InitialKind::lock_off) sigma[0] = -initial.value[0] / spacing;
   return sigma;
 }
 
@@ -270,6 +277,7 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, cons
                      "group " + std::to_string(static_cast<int>(initial.value[0])) +
                          ", whose traction the interface should take, has no initial stress card");
   data.state.make_room();
+  const double spacing = spacing_of(data.law);
   Eigen::Matrix2Xd x;
   StartCount count;
   for (int e = 0; e < group.elements(); ++e) {
@@ -279,8 +287,8 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, cons
       const double u = pressure_at(model, water, data, neighbour, x, e, p);
       std::visit(
           [&]<int N>(const Law<N>* law) {
-            start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p, u), point, data.state,
-                           count);
+            start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p, u, spacing), point,
+                           data.state, count);
           },
           data.law);
     }
@@ -349,11 +357,58 @@ void apply_own_starts(const Model& model, std::vector<GroupData>& groups) {
 void apply_initials(const Model& model, const std::vector<InitialStress>& initials, const PorePressure* water,
                     std::vector<GroupData>& groups, Diagnostics& diagnostics) {
   for (const InitialStress& initial : initials)
-    if (initial.kind != InitialKind::history)
+    if (states_stress(initial.kind) || initial.kind == InitialKind::zero)
       apply_initial_stress(model, initial, water, groups[static_cast<std::size_t>(initial.group)], diagnostics);
   for (const InitialStress& initial : initials)
     if (initial.kind == InitialKind::history)
       apply_initial_history(model, initial, groups[static_cast<std::size_t>(initial.group)]);
+}
+
+namespace {
+
+// Number of points where the law that comes into force can't carry the stress.
+long apply_choice(const LawChoice& choice, GroupData& data) {
+  data.state.make_room();
+  const auto history = static_cast<std::size_t>(data.state.history_size());
+  PointStates& states = data.state.committed;
+  long refused = 0;
+  std::visit(
+      [&]<int N>(const Law<N>* law) {
+        const auto* const table = dynamic_cast<const ChoosesLaw<N>*>(law);
+        for (std::size_t p = 0; table != nullptr && p < states.status.size(); ++p) {
+          const int number = choice.of_point[choice.of_point.size() == 1 ? 0 : p];
+          const bool carried =
+              table->choose(number, choice.anew, Eigen::Map<const Vector<N>>(states.sigma.data() + p * N),
+                            {states.h.data() + p * history, history});
+          refused += carried ? 0 : 1;
+        }
+      },
+      data.law);
+  return refused;
+}
+
+}  // namespace
+
+bool chooses_laws(const Model& model, int stage) {
+  return std::ranges::any_of(model.groups, [&](const Group& group) {
+    return std::ranges::find(group.choices, stage, &LawChoice::stage) != group.choices.end();
+  });
+}
+
+void apply_law_choices(const Model& model, int stage, std::vector<GroupData>& groups,
+                       Diagnostics& diagnostics) {
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const LawChoice& choice : model.groups[g].choices) {
+      if (choice.stage != stage) continue;
+      const long refused = apply_choice(choice, groups[g]);
+      if (refused > 0)
+        diagnostics.warning(
+            "S612", choice.where,
+            "group " + std::to_string(model.groups[g].number) + ": at " + std::to_string(refused) + " of " +
+                std::to_string(groups[g].state.committed.status.size()) +
+                " point(s) the stress lies outside the yield surface of the law that comes into "
+                "force; it returns to that surface, and the stage lets go what this leaves");
+    }
 }
 
 namespace {

@@ -51,4 +51,8 @@ void apply_drainage(const Model& model, int stage, std::vector<GroupData>& group
 // Force of the water at the end of a stage, one entry per dof; zero without water cards.
 Eigen::VectorXd water_of(const Model& model, const Activity& activity, const PorePressure* water);
 
+// The laws that come into force in a stage (Group::choices), before its initial stress.
+bool chooses_laws(const Model& model, int stage);
+void apply_law_choices(const Model& model, int stage, std::vector<GroupData>& groups, Diagnostics& diagnostics);
+
 }  // namespace sage

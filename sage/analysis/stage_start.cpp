@@ -13,6 +13,7 @@ namespace sage {
 // Activity at the start matters only to pore pressures.
 void StageStart::start_first_states() {
   const Model& model = run_.model;
+  choose_laws(0);
   run_.assembly().start_states(has_own_start(model),
                                [&](std::vector<GroupData>& groups) { apply_own_starts(model, groups); });
   if (model.water.empty()) return start_states(0, run_.system.activity(), model.initials, false);
@@ -25,7 +26,9 @@ void StageStart::open(int stage) {
   const Profile::Scope scope(run_.profile(), phase::kStart);
   RunState& state = run_.state;
   start_new_nodes();
+  reset_displacements(stage);
   run_.system.open_stage(stage);
+  if (stage > 0) choose_laws(stage);
   start_states(stage, run_.system.activity(), run_.model.stages[static_cast<std::size_t>(stage)].initials,
                true);
   state.du.setZero();
@@ -78,6 +81,21 @@ void StageStart::take_pressures_of_supports(int stage) {
     state.du.setZero();
     run_.assembly().evaluate(state.du, nullptr);
   }
+}
+
+// Those of the first stage come before any stress.
+void StageStart::choose_laws(int stage) {
+  if (!chooses_laws(run_.model, stage)) return;
+  Diagnostics warnings;
+  run_.assembly().start_states(
+      true, [&](std::vector<GroupData>& groups) { apply_law_choices(run_.model, stage, groups, warnings); });
+  run_.warn(warnings.list());
+}
+
+// Displacements alone: strains, stresses and other unknowns stay.
+void StageStart::reset_displacements(int stage) {
+  if (!run_.model.stages[static_cast<std::size_t>(stage)].resets_displacements) return;
+  run_.state.u.head(run_.assembly().dof_map().displacements()).setZero();
 }
 
 // New nodes have not moved, even where a node of a removed group was.  Before the groups of the stage are activated.
@@ -161,12 +179,12 @@ void StageStart::begin_water(int stage, const PorePressure* water) {
 bool StageStart::begins_with_stress(int stage, std::size_t group) const {
   const int g = static_cast<int>(group);
   const Stage& here = run_.model.stages[static_cast<std::size_t>(stage)];
-  const auto states_stress = [&](const InitialStress& initial) {
-    return initial.group == g && initial.kind != InitialKind::history && initial.kind != InitialKind::zero;
+  const auto stated = [&](const InitialStress& initial) {
+    return initial.group == g && states_stress(initial.kind);
   };
   const bool active_from_here = stage == 0 || std::ranges::find(here.births, g) != here.births.end();
-  return (stage == 0 && std::ranges::any_of(run_.model.initials, states_stress)) ||
-         std::ranges::any_of(here.initials, states_stress) ||
+  return (stage == 0 && std::ranges::any_of(run_.model.initials, stated)) ||
+         std::ranges::any_of(here.initials, stated) ||
          (active_from_here && has_own_stress(run_.model, run_.model.groups[group]));
 }
 

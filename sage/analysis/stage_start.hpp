@@ -18,6 +18,8 @@ class StageStart {
   void open(int stage);
 
  private:
+  void choose_laws(int stage);
+  void reset_displacements(int stage);
   void start_new_nodes();
   void start_states(int stage, const Activity& activity, const std::vector<InitialStress>& initials,
                     bool drainage);

@@ -333,6 +333,8 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   mesh::make_mid_nodes(b);
   if (b.problems.errors() == 0) builder::take_stored_heads(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
+  builder::build_laws(b);
+  if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   builder::check_model(b);
   builder::check_stages(b);
   builder::check_points(b);

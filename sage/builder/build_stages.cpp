@@ -210,7 +210,10 @@ int values_of(InitialKind kind, const Group* group) {
   const bool known = group != nullptr && group->element;
   if (kind == InitialKind::uniform) return known ? group->entry->law_size : 4;
   if (kind == InitialKind::geostatic) return 4;
-  return kind == InitialKind::traction ? 1 : kind == InitialKind::history ? 6 : 0;
+  if (kind == InitialKind::parameter) return 3;
+  const bool one =
+      kind == InitialKind::traction || kind == InitialKind::lock_off || kind == InitialKind::material;
+  return one ? 1 : kind == InitialKind::history ? 6 : 0;
 }
 
 // A value that nothing reads is mostly one that was meant for something.
@@ -303,16 +306,17 @@ bool read_history(Builder& b, const CardView& card, InitialStress& initial) {
   return false;
 }
 
-void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& out) {
+void read_initial(Builder& b, const CardView& card, bool in_stage, std::vector<InitialStress>& out) {
   InitialStress initial;
   initial.where = card.where();
   const int kind = card.integer("kind");
   const int number = card.integer("group");
-  if (kind < 0 || kind > 4) {
+  if (kind < 0 || kind > 7) {
     b.error(
         "S210", card.where("kind"),
         "initial stress kind " + std::to_string(kind) +
-            " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours, 4 history of the law");
+            " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours, 4 history of the law, "
+            "5 lock-off, 6 another material, 7 a parameter that grows with depth");
     return;
   }
   initial.kind = static_cast<InitialKind>(kind);
@@ -339,6 +343,8 @@ void read_initial(Builder& b, const CardView& card, std::vector<InitialStress>& 
     if (initial.kind == InitialKind::geostatic && b.model.groups[g].element && b.model.groups[g].structure())
       b.error("S236", card.where("kind"), "kind 1 (geostatic) is for solids; structures take kind 0 or 2");
     initial.group = static_cast<int>(g);
+    const bool of_law = is_about_law(initial.kind) || initial.kind == InitialKind::lock_off;
+    if (of_law && !read_law_card(b, card, in_stage, initial, out)) return;
     if (initial.kind == InitialKind::history && b.materials_known && b.model.groups[g].element &&
         !fits_history(b, card, initial, out))
       return;
@@ -354,7 +360,8 @@ void check_traction(Builder& b, const CardView& card) {
   const auto stated = [&](const std::vector<InitialStress>& list) {
     return std::ranges::any_of(list, [&](const InitialStress& initial) {
       const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
-      return initial.kind != InitialKind::history && group.number == wanted && group.element && group.solid();
+      return (states_stress(initial.kind) || initial.kind == InitialKind::zero) && group.number == wanted &&
+             group.element && group.solid();
     });
   };
   if (stated(b.model.initials)) return;
@@ -445,6 +452,12 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   if (b.usable(card, "strength_factor", stage.strength_factor) && stage.strength_factor < 0.0)
     b.error("S207", card.where("strength_factor"),
             "the strength factor of a stage must not be negative (blank = none)");
+  const int reset = card.integer("reset_displacements");
+  stage.resets_displacements = reset == 1;
+  if (reset != 0 && reset != 1)
+    b.error(
+        "S210", card.where("reset_displacements"),
+        "code " + std::to_string(reset) + " is unknown; 0 displacements go on, 1 they count from this stage");
   for (const CardView& c : b.deck.all("fixity", card))
     read_fixity(b, c, &stage.exits, stage.fixities, stage.field_fixities);
   for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);
@@ -452,7 +465,7 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   for (const CardView& c : b.deck.all("edge_load", card)) read_edge_load(b, c, stage.pressures, stage.loads);
   for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
   for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);
-  for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, stage.initials);
+  for (const CardView& c : b.deck.all("initial", card)) read_initial(b, c, true, stage.initials);
   for (const CardView& c : b.deck.all("removal", card))
     if (const auto found = b.removed.find(c.index()); found != b.removed.end())
       stage.deaths.insert(stage.deaths.end(), found->second.begin(), found->second.end());
@@ -512,7 +525,7 @@ void build_stages(Builder& b) {
   for (const CardView& card : b.deck.all("fixity"))
     if (outside_stages(b.deck, card)) read_fixity(b, card, nullptr, b.model.fixities, b.model.field_fixities);
   for (const CardView& card : b.deck.all("initial"))
-    if (outside_stages(b.deck, card)) read_initial(b, card, b.model.initials);
+    if (outside_stages(b.deck, card)) read_initial(b, card, false, b.model.initials);
   int number = 0;
   const std::vector<CardView> titles = b.deck.all("stage_title");
   for (const CardView& card : b.deck.all("stage")) {

@@ -3,8 +3,8 @@
 
 #include "sage/builder/builder.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/model/law_table.hpp"
 #include "sage/model/strength.hpp"
-#include "sage/model/undrained.hpp"
 
 namespace sage::builder {
 
@@ -12,21 +12,12 @@ namespace {
 
 // The material with its strengths divided by a factor.
 Material reduced(const Material& from, double factor, const UnitSystem& units) {
-  Material m;
-  m.number = from.number;
-  m.name = from.name;
-  m.code = from.code;
-  m.law_name = from.law_name;
-  m.entry = from.entry;
-  m.parameters = from.parameters;
-  m.unit_weight = from.unit_weight;
-  m.where = from.where;
+  Material m = twin_of(from, units);
   const ModelPart part = part_of(*m.entry).value_or(ModelPart::soil);
   const bool divided = part == ModelPart::soil || part == ModelPart::joints;
-  if (divided && reduce_strength(m.parameters, *m.entry, {factor, DilationRule::reduced}))
-    m.name += (m.name.empty() ? "strength / " : ", strength / ") + rounded_text(factor, 6);
-  m.undrained = from.undrained;
-  m.law = with_water(m.entry->law_for(m.parameters, units, from.name), m.undrained);
+  const bool weaker = divided && reduce_strength(m, {factor, DilationRule::reduced});
+  m.law = make_law(m, units);
+  if (weaker) m.name += (m.name.empty() ? "strength / " : ", strength / ") + rounded_text(factor, 6);
   return m;
 }
 

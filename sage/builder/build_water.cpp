@@ -7,6 +7,7 @@
 
 #include "sage/builder/builder.hpp"
 #include "sage/deck/text.hpp"
+#include "sage/model/law_table.hpp"
 #include "sage/model/undrained.hpp"
 
 namespace sage::builder {
@@ -247,13 +248,9 @@ void shut_in(Builder& b, Group& group, std::map<int, int>& twins) {
   const int from = group.material;
   auto twin = twins.find(from);
   if (twin == twins.end()) {
-    const Material& own = b.model.materials[static_cast<std::size_t>(from)];
-    Material material{
-        own.number,      own.name,
-        own.code,        own.law_name,
-        own.entry,       own.parameters,
-        own.unit_weight, with_water(own.entry->law_for(own.parameters, b.model.units, own.name), true),
-        own.where,       true};
+    Material material = twin_of(b.model.materials[static_cast<std::size_t>(from)], b.model.units);
+    material.undrained = material.twin = true;
+    material.law = make_law(material, b.model.units);
     twin = twins.emplace(from, static_cast<int>(b.model.materials.size())).first;
     b.model.materials.push_back(std::move(material));
   }

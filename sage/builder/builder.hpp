@@ -123,6 +123,12 @@ void build_strength_stages(Builder& b);
 // Pressure and shear on an edge that is given by its nodes.  `forces`: of what is not linear along the edge.
 void read_edge_load(Builder& b, const CardView& card, std::vector<EdgeLoad>& out,
                     std::vector<NodalLoad>& forces);
+// An initial card about the law of its group (kinds 5 to 7); before: those of the same stage that stand before it.  False
+// after an error.
+bool read_law_card(Builder& b, const CardView& card, bool in_stage, InitialStress& initial,
+                   const std::vector<InitialStress>& before);
+// Laws that differ by point or stage, once the mesh is whole.
+void build_laws(Builder& b);
 // Pore pressures and undrained groups.
 void build_water(Builder& b);
 // Pressures of cards that name the result file of an earlier run, at the nodes of the whole mesh.

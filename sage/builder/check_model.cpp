@@ -192,6 +192,9 @@ void note_unused_materials(Builder& b) {
     if (group.second_material >= 0)
       used.insert(b.model.materials[static_cast<std::size_t>(group.second_material)].number);
   }
+  for (const Stage& stage : b.model.stages)
+    for (const InitialStress& initial : stage.initials)
+      if (initial.kind == InitialKind::material) used.insert(static_cast<int>(initial.value[0]));
   for (const Material& material : b.model.materials)
     if (!used.contains(material.number))
       b.note("S329", material.where,
@@ -226,8 +229,7 @@ void note_remarks(Builder& b) {
 bool has_initial_stress(const Model& model, int group) {
   const auto states = [&](const std::vector<InitialStress>& initials) {
     return std::ranges::any_of(initials, [&](const InitialStress& initial) {
-      return initial.group == group && initial.kind != InitialKind::zero &&
-             initial.kind != InitialKind::history;
+      return initial.group == group && states_stress(initial.kind);
     });
   };
   return states(model.initials) ||

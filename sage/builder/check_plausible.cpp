@@ -365,7 +365,7 @@ void check_tolerance(Builder& b, const Stage& stage) {
 void check_twice_initial(Builder& b, const std::vector<InitialStress>& initials) {
   std::map<int, int> lines;  // by group
   for (const InitialStress& initial : initials) {
-    if (initial.kind == InitialKind::history) continue;
+    if (!states_stress(initial.kind) && initial.kind != InitialKind::zero) continue;
     const auto [first, added] = lines.try_emplace(initial.group, initial.where.line);
     if (added || first->second == initial.where.line) continue;
     b.warning("S315", initial.where,

@@ -10,6 +10,7 @@
 #include "sage/builder/builder.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/joined.hpp"
+#include "sage/model/spread_loads.hpp"
 
 namespace sage::builder {
 
@@ -434,12 +435,14 @@ void check_strips(Builder& b) {
 // Prestress that the law can't carry: a tension-only anchor that is pushed, a force beyond the strength.
 void check_prestress(Builder& b, const InitialStress& initial) {
   const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
-  if (!group.structure() || initial.kind != InitialKind::uniform) return;
+  const bool lock_off = initial.kind == InitialKind::lock_off;
+  if (!group.structure() || (initial.kind != InitialKind::uniform && !lock_off)) return;
+  const double share = lock_off ? 1.0 / spacing_of(b.model.material_of(group).law_ref()) : 1.0;
   const Material& material = b.model.material_of(group);
   const bool carried = std::visit(
       [&]<int N>(const Law<N>* law) {
         Vector<N> sigma = Vector<N>::Zero();
-        for (int i = 0; i < N; ++i) sigma[i] = 0.0 - initial.value[static_cast<std::size_t>(i)];
+        for (int i = 0; i < N; ++i) sigma[i] = 0.0 - share * initial.value[static_cast<std::size_t>(i)];
         std::vector<double> history = initial_values(law->traits().history);
         return law->initialise(sigma, history);
       },
@@ -450,7 +453,8 @@ void check_prestress(Builder& b, const InitialStress& initial) {
           "group " + std::to_string(group.number) + ": " + material.law_name +
               " can't carry this prestress, an axial " + (force < 0.0 ? "tension of " : "compression of ") +
               rounded_text(std::abs(force)) + " " + b.model.units.force +
-              "; values are compression positive, for each unit of width");
+              (lock_off ? "; values are compression positive, of one bar"
+                        : "; values are compression positive, for each unit of width"));
 }
 
 }  // namespace

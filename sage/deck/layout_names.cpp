@@ -44,11 +44,11 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "element", true, "number n1 n2", kElement, ""},
     {"sage1", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value unknown",
      "?stage"},
-    {"sage1", "initial", false, "group v1", "kind v2 v3 v4 v5 v6", "?stage"},
+    {"sage1", "initial", false, "group v1", "kind v2 v3 v4 v5 v6 material parameter", "?stage"},
     {"sage1", "stage_title", false, "title", "", ""},
     {"sage1", "stage", true, "",
      "increments duration method max_iterations output_every gravity_x gravity_y tolerance "
-     "strength_factor pore_water theta grading",
+     "strength_factor pore_water theta grading reset_displacements",
      ""},
     {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown", "!stage"},
     {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "!stage"},

@@ -131,7 +131,7 @@ class Sage1Writer {
   // Those of undrained groups are twins of others, with their numbers.
   std::size_t given_materials() const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(model_.materials, [](const Material& m) { return !m.undrained; }));
+        std::ranges::count_if(model_.materials, [](const Material& m) { return !m.undrained && !m.twin; }));
   }
   void report(const Report& report);
   void water(const WaterCard& card);
@@ -245,7 +245,7 @@ void Sage1Writer::nodes() {
 
 void Sage1Writer::materials() {
   for (const Material& material : model_.materials) {
-    if (material.undrained) continue;
+    if (material.undrained || material.twin) continue;
     heading("* numb  law para    weight name");
     integer(material.number);
     integer(material.code);
@@ -398,9 +398,11 @@ void Sage1Writer::list(const std::vector<int>& groups) {
 }
 
 void Sage1Writer::stage(const Stage& stage) {
-  const bool pores = stage.pores != PoreWater::kept || stage.theta != 1.0 || stage.grading != 1.0;
+  const bool resets = stage.resets_displacements;
+  const bool pores = stage.pores != PoreWater::kept || stage.theta != 1.0 || stage.grading != 1.0 || resets;
   const bool lasts = stage.duration != 1.0, factor = stage.strength_factor != 0.0 || pores;
-  if ((lasts || factor) && !wide_) throw TooWide{"of the stage's duration or strength factor"};
+  if ((lasts || factor) && !wide_)
+    throw TooWide{resets ? "of the reset of displacements" : "of the stage's duration or strength factor"};
   // A '*' in column 1 would make the title a comment.
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();
@@ -422,6 +424,7 @@ void Sage1Writer::stage(const Stage& stage) {
     real(stage.theta);
     real(stage.grading);
   }
+  if (resets) integer(1);
   line();
   for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);

@@ -1140,6 +1140,28 @@ constexpr MessageEntry kMessages[] = {
     {"S610", "a field asked for has no place in the outputs",
      "The field lives at nodes or points, and no output of this run shows values there.",
      "Add --nodes, --points or --result, or take the field out of --field."},
+    {"S611", "a law can't have the parameters that its place or stage gives it",
+     "A parameter that grows with depth leaves the range of its law somewhere in the group, or a law with many "
+     "history variables follows another one.",
+     "Change the growth or the level, so that the parameter stays in its range in the whole group."},
+    {"S612", "the stress lies outside the yield surface of the law that comes into force",
+     "A group goes on with another material, and the stress that it keeps is more than that one carries. At "
+     "the "
+     "start of the stage the stress of such points returns to the surface, as an elastic trial stress would; "
+     "the "
+     "forces that this leaves unbalanced are let go over the increments of the stage.",
+     "Look at the displacements of the stage. If the stress should fit, correct the strength."},
+    {"S613", "a node is held by nothing during lock-off",
+     "In the stage of lock-off the force of a bar is held and the bar has no stiffness.",
+     "Support the node at the far end of the bar, or make the free length of the anchor one element."},
+    {"S614", "a card about the law of a group does not fit",
+     "Lock-off is for bars and springs in a stage; another material and its group must have laws for the same "
+     "kind "
+     "of element; a parameter must be one of the law's; and the group must be there in the stage.",
+     "Correct the card; `sagefe list materials` shows laws and their parameters."},
+    {"S615", "the unit weight does not change with the material",
+     "A group that goes on with another material keeps the weight with which it was loaded.",
+     "Give both materials the same unit weight, or add the difference as a load."},
     {"S630", "the checkpoint does not fit",
      "It is of another deck, other options, other outputs or another build, or files it goes on from "
      "have been changed since. Going on would mix two runs.",

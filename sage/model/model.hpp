@@ -27,6 +27,14 @@ struct Mesh {
   int given_nodes() const { return nodes() - made_between; }  // of cards, or made by refining
 };
 
+// A law and its parameters, one of several that the points of a group may have in force (law_table.hpp).
+struct LawVariant {
+  std::shared_ptr<const MaterialEntry> entry;
+  std::vector<double> parameters;  // as the deck writes them
+  std::string material;            // name of the material
+  bool held = false;               // the stress stays whatever the strain does
+};
+
 struct Material {
   int number = 0;
   std::string name;
@@ -37,11 +45,21 @@ struct Material {
   double unit_weight = 0.0;        // force / length^3
   LawPtr law;
   SourcePosition where;
-  bool undrained = false;  // the law stands within one of sage/model/undrained.hpp
+  bool undrained = false;            // the law stands within one of sage/model/undrained.hpp
+  bool twin = false;                 // made for some of the groups of another material, with its number
+  std::vector<LawVariant> variants;  // that points may have in force; empty = the law of `parameters` alone
 
   LawRef law_ref() const;
   // The first parameter of a role as the deck writes it; nothing where the law has none.
   std::optional<double> parameter(ParameterRole role) const;
+};
+
+// From a stage on, which variant of its material each point of a group has in force.
+struct LawChoice {
+  int stage = 0;              // 0-based
+  bool anew = false;          // the history of that law begins with the stress of then
+  std::vector<int> of_point;  // element after element; a single one = of all points
+  SourcePosition where;
 };
 
 // Elements of one formulation and one material; connectivity in one flat array.
@@ -61,6 +79,7 @@ struct Group {
   bool overlay = false;
   SourcePosition where;
   int excess = -1;  // place of the excess pore pressure in the law's history; -1 = never undrained
+  std::vector<LawChoice> choices;  // by stage; empty = the material has one law
 
   int elements() const { return static_cast<int>(element_numbers.size()); }
   const int* nodes_of(int e) const { return nodes.data() + static_cast<std::size_t>(e) * node_count(); }
@@ -129,7 +148,19 @@ enum class InitialKind {
   zero,       // explicitly none
   traction,   // interfaces: the traction that the neighbouring group's initial stress puts on the interface
   history,    // history of the law: number of the first quantity (from 1), then values; NaN = left as it is
+  lock_off,  // bars, in a stage: the force of one bar that stands at its end; from the next stage on the bar is elastic
+  material,   // in a stage: number of the material that the group goes on with; its stress stays
+  parameter,  // a parameter of the law (number from 1), level, and growth per length of depth below that level
 };
+// Of the others the stress stays as it is.
+inline bool states_stress(InitialKind kind) {
+  return kind == InitialKind::uniform || kind == InitialKind::geostatic || kind == InitialKind::traction ||
+         kind == InitialKind::lock_off;
+}
+// Cards of the law of a group, not of its stress.
+inline bool is_about_law(InitialKind kind) {
+  return kind == InitialKind::material || kind == InitialKind::parameter;
+}
 
 struct InitialStress {
   int group = 0;  // index into Model::groups
@@ -200,6 +231,7 @@ struct Stage {
   std::vector<int> births, deaths;      // groups
   std::vector<InitialStress> initials;  // of groups born in this stage
   double strength_factor = 0.0;         // by which the strengths were divided for it; 0 = it is about no factor
+  bool resets_displacements = false;    // displacements count from its start
   SourcePosition where;
 };
 

@@ -63,6 +63,11 @@ bool has_strength(const MaterialEntry& entry) {
   return std::ranges::any_of(entry.parameters, [](const Parameter& p) { return is_strength(p.role); });
 }
 
+bool has_strength(const Material& material) {
+  return has_strength(*material.entry) ||
+         std::ranges::any_of(material.variants, [](const LawVariant& one) { return has_strength(*one.entry); });
+}
+
 bool has_less_dilation(const Model& model) {
   return std::ranges::any_of(model.groups, [&](const Group& group) {
     if (group.material < 0 || !group.solid()) return false;
@@ -107,6 +112,12 @@ bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
     }
   }
   return true;
+}
+
+bool reduce_strength(Material& material, const StrengthReduction& reduction) {
+  bool any = reduce_strength(material.parameters, *material.entry, reduction);
+  for (LawVariant& one : material.variants) any = reduce_strength(one.parameters, *one.entry, reduction) || any;
+  return any;
 }
 
 }  // namespace sage

@@ -53,6 +53,8 @@ struct StrengthReduction {
 
 // Some parameter of the law is a strength.
 bool has_strength(const MaterialEntry& entry);
+// Some law that points of the material may have in force has one.
+bool has_strength(const Material& material);
 
 // Some material of a solid group has a dilation angle below its friction angle: flow is not associated.
 bool has_less_dilation(const Model& model);
@@ -63,5 +65,7 @@ bool has_less_dilation(const Model& model);
 // False: the law has no strength, nothing changes.
 bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
                      const StrengthReduction& reduction);
+// Of every law that points of the material may have in force; the law itself is to be made anew.
+bool reduce_strength(Material& material, const StrengthReduction& reduction);
 
 }  // namespace sage

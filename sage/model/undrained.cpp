@@ -86,6 +86,11 @@ double UndrainedLaw::stress_level(const Vector4& sigma, std::span<const double> 
   return grains_->stress_level(effective(sigma, h), h.first(excess()));
 }
 
+bool UndrainedLaw::choose(int law, bool anew, const Vector4& sigma, std::span<double> h) const {
+  const auto* const table = dynamic_cast<const ChoosesLaw<4>*>(grains_.get());
+  return table == nullptr || table->choose(law, anew, effective(sigma, h), h.first(excess()));
+}
+
 LawPtr with_water(LawPtr law, bool undrained) {
   auto* const solid = std::get_if<std::unique_ptr<SolidLaw>>(&law);
   if (!undrained || solid == nullptr || *solid == nullptr) return law;

@@ -4,6 +4,7 @@
 #include "sage/core/law.hpp"
 #include "sage/core/law_remark.hpp"
 #include "sage/core/start_adjustment.hpp"
+#include "sage/model/law_table.hpp"
 
 namespace sage {
 
@@ -14,7 +15,11 @@ namespace sage {
 // one) is held by a multiplier: p grows by -B (e + p / K) with B = 1e8 G, so that what is left of an increment's
 // change of volume, (growth of p) / B, is taken out by the next one, and no digits are lost.
 // docs/decisions/0029-stiff-water.md
-class UndrainedLaw final : public SolidLaw, public PathError<4>, public StartAdjustment<4>, public LawRemark {
+class UndrainedLaw final : public SolidLaw,
+                           public PathError<4>,
+                           public StartAdjustment<4>,
+                           public LawRemark,
+                           public ChoosesLaw<4> {
  public:
   static constexpr std::size_t kOwn = 3;
 
@@ -34,6 +39,8 @@ class UndrainedLaw final : public SolidLaw, public PathError<4>, public StartAdj
   // Of the effective stress; no excess pressure stands at the start.
   bool adjusts_start(const Vector4& sigma) const override { return sage::adjusts_start(*grains_, sigma); }
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
+  // Of the grains, at the effective stress; their law must be one that chooses.
+  bool choose(int law, bool anew, const Vector4& sigma, std::span<double> h) const override;
 
   // Place of p in the history; those of the bulk and of e + p / K come next.
   std::size_t excess() const { return quantities_.size() - kOwn; }

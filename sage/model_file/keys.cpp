@@ -19,8 +19,8 @@ struct Change {
 };
 
 const std::vector<CodeName> kHold{{0, "free"}, {1, "fixed"}, {-1, "released"}, {2, "exit"}};
-const std::vector<CodeName> kInitial{
-    {0, "uniform"}, {1, "geostatic"}, {2, "zero"}, {3, "traction"}, {4, "history"}};
+const std::vector<CodeName> kInitial{{0, "uniform"}, {1, "geostatic"}, {2, "zero"},     {3, "traction"},
+                                     {4, "history"}, {5, "lock off"},  {6, "material"}, {7, "parameter"}};
 
 const std::vector<Change>& changes() {
   static const std::vector<Change> list{
@@ -39,6 +39,8 @@ const std::vector<Change>& changes() {
       {"initial", "group", Want::group},
       {"initial", "kind", Want::code, {}, kInitial},
       {"initial", "v1", Want::values, "values"},
+      {"initial", "material", Want::material},
+      {"stage", "reset_displacements", Want::flag},
       {"stage",
        "method",
        Want::code,

@@ -120,7 +120,10 @@ InitialInput initial_of(const py::handle& object) {
                                         {"geostatic", InitialKind::geostatic},
                                         {"zero", InitialKind::zero},
                                         {"traction", InitialKind::traction},
-                                        {"history", InitialKind::history}}),
+                                        {"history", InitialKind::history},
+                                        {"lock off", InitialKind::lock_off},
+                                        {"material", InitialKind::material},
+                                        {"parameter", InitialKind::parameter}}),
           attribute<std::vector<double>>(object, "values")};
 }
 

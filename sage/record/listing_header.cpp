@@ -58,7 +58,7 @@ std::string named(std::initializer_list<std::string_view> names, const double* v
   return text;
 }
 
-std::string initial_text(const Group& group, const InitialStress& initial) {
+std::string initial_text(const Model& model, const Group& group, const InitialStress& initial) {
   const double* const v = initial.value.data();
   switch (initial.kind) {
     case InitialKind::uniform:
@@ -73,6 +73,13 @@ std::string initial_text(const Group& group, const InitialStress& initial) {
       return "none";
     case InitialKind::traction:
       return fmt::format("traction of the initial stress of group {:.0f}", v[0]);
+    case InitialKind::lock_off:
+      return named({"force of one bar at the end of the stage"}, v);
+    case InitialKind::material:
+      return fmt::format("goes on with material {:.0f}, its stress stays", v[0]);
+    case InitialKind::parameter:
+      return fmt::format("parameter {:.0f} grows with depth below {:.6g}: {:.6g} each {}", v[0], v[1], v[2],
+                         model.units.length);
     case InitialKind::history:
       break;
   }
@@ -131,10 +138,11 @@ void states_of_stage(std::string& text, const Model& model, int index) {
   };
   const auto initial = [&](const InitialStress& card) {
     const Group& group = model.groups[static_cast<std::size_t>(card.group)];
-    wrapped(text,
-            fmt::format("   {}, {}: {}",
-                        group.structure() && card.kind == InitialKind::uniform ? "prestress" : "initial stress",
-                        name(card.group), initial_text(group, card)));
+    const char* const what = card.kind == InitialKind::lock_off                       ? "lock-off"
+                             : is_about_law(card.kind)                                ? "law"
+                             : group.structure() && card.kind == InitialKind::uniform ? "prestress"
+                                                                                      : "initial stress";
+    wrapped(text, fmt::format("   {}, {}: {}", what, name(card.group), initial_text(model, group, card)));
   };
   if (index == 0) std::ranges::for_each(model.initials, initial);
   std::ranges::for_each(stage_of(model, index).initials, initial);

@@ -306,6 +306,8 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
         series.weight[1][c] += weights.end[DofMap::displacement(node, c)];
       }
     }
+    if (model.stages[static_cast<std::size_t>(stage)].resets_displacements)
+      forget_displacements(series, report, stage);
     if (stage >= report.stage) count_from_here(series, model, solution);
     if (series.begun || stage < report.stage) continue;
     series.begun = true;
@@ -318,6 +320,21 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     }
     begin(series, model, report);
   }
+}
+
+// The stage sets the displacements to zero.  The strain of a specimen goes on.
+void Reports::forget_displacements(Series& series, const Report& report, int stage) {
+  if (!series.begun && !series.filled) return;
+  for (double& start : series.start_displacement) start = 0.0;
+  if (!series.triaxial.empty())
+    series.start_displacement[1] = series.triaxial.back().axial_strain * report.height;
+  std::size_t at = 0;
+  for (const FieldEntry* field : series.fields)
+    for (std::size_t c = 0; c < field->size(); ++c, ++at)
+      if (field->from_start && field->place() == FieldPlace::node) series.start[at] = 0.0;
+  if (report.kind == ReportKind::nodes || report.kind == ReportKind::point)
+    series.file.text() +=
+        fmt::format("# displacements count from the start of stage {} from here on\n", stage + 1);
 }
 
 void Reports::begin(Series& series, const Model& model, const Report& report) {

@@ -172,6 +172,7 @@ class Reports final : public Output {
     FieldList fields;           // of a point
     bool of_flow = false;       // a point in a model of flow alone
   };
+  static void forget_displacements(Series& series, const Report& report, int stage);
   static void begin(Series& series, const Model& model, const Report& report);
   static void add_message(Series& series, const std::string& words, Code code);
   static void note_blank(Series& series, const TriaxialRow& row);

@@ -9,7 +9,7 @@
 #include "sage/analysis/extent.hpp"
 #include "sage/analysis/trials.hpp"
 #include "sage/model/activity.hpp"
-#include "sage/model/undrained.hpp"
+#include "sage/model/law_table.hpp"
 
 namespace sage::safety {
 
@@ -168,17 +168,18 @@ class Finder final : public Trials {
   const Options& options_;
   FactorSearch search_;
   Safety safety_;
-  std::vector<std::size_t> materials_;         // whose strength is divided
-  std::vector<std::vector<double>> strength_;  // their parameters at factor 1
-  std::vector<LawPtr> laws_before_;            // until the run has taken the new ones
-  Eigen::VectorXd u_start_;                    // when the strengths began to fall
-  Eigen::VectorXd lost_;                       // where the last attempt of a failed run of the stages went
-  std::vector<double> lost_dissipation_;       // likewise
-  double factor_ = 0.0, from_ = 0.0;           // in hand; whose state it begins with
-  double repeated_ = 0.0;                      // the last factor that was tried again
-  std::vector<double> undecided_;              // that stayed so when they were
-  std::vector<int> increments_;                // of the deck's stages
-  std::vector<double> tolerances_;             // likewise
+  std::vector<std::size_t> materials_;             // whose strength is divided
+  std::vector<std::vector<double>> strength_;      // their parameters at factor 1
+  std::vector<std::vector<LawVariant>> variants_;  // likewise
+  std::vector<LawPtr> laws_before_;                // until the run has taken the new ones
+  Eigen::VectorXd u_start_;                        // when the strengths began to fall
+  Eigen::VectorXd lost_;                           // where the last attempt of a failed run of the stages went
+  std::vector<double> lost_dissipation_;           // likewise
+  double factor_ = 0.0, from_ = 0.0;               // in hand; whose state it begins with
+  double repeated_ = 0.0;                          // the last factor that was tried again
+  std::vector<double> undecided_;                  // that stayed so when they were
+  std::vector<int> increments_;                    // of the deck's stages
+  std::vector<double> tolerances_;                 // likewise
 };
 
 bool Finder::chosen(const Group& group) const {
@@ -218,7 +219,7 @@ void Finder::choose_materials() {
       if (model_.groups[g].material == static_cast<int>(m) && activity.group[g] != 0)
         (chosen(model_.groups[g]) ? with : without).push_back(&model_.groups[g]);
     if (with.empty() && without.empty()) continue;
-    const bool strong = has_strength(*model_.materials[m].entry);
+    const bool strong = has_strength(model_.materials[m]);
     if (with.empty() || !strong) {
       safety_.untouched.push_back(material_words(model_.materials[m]) +
                                   (strong ? ": not asked for" : ": its law names no strength"));
@@ -226,16 +227,13 @@ void Finder::choose_materials() {
     }
     std::size_t at = m;
     if (!without.empty()) {
-      const Material& from = model_.materials[m];
       at = model_.materials.size();
-      model_.materials.push_back({from.number, from.name, from.code, from.law_name, from.entry, from.parameters,
-                                  from.unit_weight,
-                                  with_water(from.entry->make(from.parameters, model_.units), from.undrained),
-                                  from.where, from.undrained});
+      model_.materials.push_back(twin_of(model_.materials[m], model_.units));
       for (Group* group : with) group->material = static_cast<int>(at);
     }
     materials_.push_back(at);
     strength_.push_back(model_.materials[at].parameters);
+    variants_.push_back(model_.materials[at].variants);
     safety_.reduced.push_back(material_words(model_.materials[at]));
   }
   if (materials_.empty()) {
@@ -278,10 +276,11 @@ void Finder::set_factor(double factor) {
   for (std::size_t i = 0; i < materials_.size(); ++i) {
     Material& material = model_.materials[materials_[i]];
     material.parameters = strength_[i];
+    material.variants = variants_[i];
     if (factor != 1.0 || options_.dilation == DilationRule::none)
-      reduce_strength(material.parameters, *material.entry, {factor, options_.dilation});
+      reduce_strength(material, {factor, options_.dilation});
     laws_before_.push_back(std::move(material.law));
-    material.law = with_water(material.entry->make(material.parameters, model_.units), material.undrained);
+    material.law = make_law(material, model_.units);
   }
 }
 
