@@ -24,5 +24,6 @@ Section structure_cases();
 Section soil_structure_cases();
 Section seepage_cases();
 Section water_cases();
+Section consolidation_cases();
 
 }  // namespace sage::verify
