@@ -44,7 +44,7 @@ struct BuildOptions : MeshOptions {
   HeadReader heads;                  // for water cards that name a result file; empty = they are refused
   bool dilates =
       true;  // false: the analysis takes all dilation away, and nothing is chosen or said because of it
-  bool associated = false;  // solids dilate by their friction angle, whatever dilation the deck states
+  bool associated = false;      // solids dilate by their friction angle, whatever dilation the deck states
   bool points_outside = false;  // a requested point may lie outside: its report is blank then
 };
 
