@@ -29,7 +29,7 @@ Command completion_command(CLI::App& parser, const Catalogue& catalogue) {
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));
   parser.footer(
-      "An installed program brings them along.  Else, for this shell:\n"
+      "An installed sagefe has completion already.  Otherwise, for this shell:\n"
       "  bash: . <(sagefe completion bash)      fish: sagefe completion fish | source\n"
       "  zsh:  . <(sagefe completion zsh)       (behind compinit)");
   return [shell, &catalogue] {

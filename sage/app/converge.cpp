@@ -707,13 +707,12 @@ Convergence ConvergenceStudy::run() {
 void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std::string& whose) {
   parser
       .add_option("--converge", options.tolerance,
-                  "finer and finer meshes until the reports are certain to this relative error, e.g. 1e-5")
+                  "refine the mesh until the relative error of the reports is below this, e.g. 1e-5")
       ->check(number_in(convergence::kLeastError, 0.5, "a relative error from 1e-10 to 0.5"));
   parser
-      .add_option(
-          "--follow", options.follow,
-          "with --converge: the number that must be certain, as report1.fy (may be given more than once; "
-          "default: the main ones of all reports, without those that are small beside the others)")
+      .add_option("--follow", options.follow,
+                  "with --converge: a value to which the error applies, such as report1.fy (may be repeated; "
+                  "default: the main values of all reports, without those that are small beside the others)")
       ->allow_extra_args(false);
   parser
       .add_option("--max-dofs", options.max_dofs,
@@ -721,7 +720,7 @@ void add_converge_options(CLI::App& parser, ConvergeOptions& options, const std:
       ->check(CLI::PositiveNumber);
   parser
       .add_option("--max-seconds", options.max_seconds,
-                  "with --converge: " + whose + "time limit, a mesh in work is left then (default 120)")
+                  "with --converge: " + whose + "time limit, which also interrupts a mesh (default 120)")
       ->check(number_in(1e-3, 1e9, "a number of seconds from 1e-3 to 1e9"));
 }
 

@@ -404,7 +404,8 @@ void add_law_options(CLI::App& parser, DriveOptions& options) {
   parser.add_option("--law", options.law,
                     "a law by name or code (sagefe list materials); NAME:LAW names it (CMNAME of a UMAT)");
   parser.add_option("--deck", options.deck, "the law, parameters and units of a deck's material");
-  parser.add_option("--material", options.material, "its number in the deck (default: the only one)")
+  parser
+      .add_option("--material", options.material, "number of the material in the deck (default: the only one)")
       ->needs("--deck");
   parser.add_option("--layout", options.layout, "card layout of the deck: a name or a TOML file")
       ->needs("--deck");
@@ -417,43 +418,43 @@ void add_law_options(CLI::App& parser, DriveOptions& options) {
   parser
       .add_option(
           "--case", options.cases,
-          "NAME:LAW,KEY=VALUE,... one curve of several; without LAW that of --law or --deck with changes; "
-          "KEY pressure is its own start; may be repeated")
+          "NAME:LAW,KEY=VALUE,... one curve of several; without LAW, the law of --law or --deck with these "
+          "changes; KEY pressure sets its own start; may be repeated")
       ->allow_extra_args(false);
-  parser.add_option("--cases", options.cases_file, "a file with such a text a line");
+  parser.add_option("--cases", options.cases_file, "a file with one such text per line");
   parser.add_option("--units", options.unit_names, "names of length, force and stress, e.g. m,kN,kPa")
       ->delimiter(',')
       ->expected(3);
-  parser
-      .add_option("--p-a", options.units.atmospheric_pressure, "atmospheric pressure, for laws that ask for it")
+  parser.add_option("--p-a", options.units.atmospheric_pressure, "atmospheric pressure, for laws that need it")
       ->check(finite_number);
-  parser.add_option("--gamma-w", options.units.water_unit_weight, "unit weight of water, likewise")
+  parser
+      .add_option("--gamma-w", options.units.water_unit_weight, "unit weight of water, for laws that need it")
       ->check(finite_number);
 }
 
 void add_test_options(CLI::App& parser, DriveOptions& options) {
-  parser.add_flag("--list", options.list, "the tests that there are");
+  parser.add_flag("--list", options.list, "list the tests");
   parser.add_option("--test", options.test,
                     "solids: " + known_lab_tests(4) + "; joints: " + known_lab_tests(2));
-  parser.add_option("--path", options.path,
-                    "CSV of stresses and strains instead, a leg a row: columns stress_xx ... strain_xy, steps, "
-                    "duration (docs/manual/drive.md)");
+  parser.add_option(
+      "--path", options.path,
+      "CSV of stresses and strains instead, one leg per row: columns stress_xx ... strain_xy, steps, "
+      "duration (docs/manual/drive.md)");
   parser
       .add_option("--pressure", options.pressure,
-                  "stress at the start: all round, or across a joint (default 0)")
+                  "stress at the start: isotropic, or across a joint (default 0)")
       ->check(finite_number);
-  parser.add_option("--start", options.start, "XX,YY,ZZ,XY or SHEAR,NORMAL: an uneven start")
+  parser.add_option("--start", options.start, "XX,YY,ZZ,XY or SHEAR,NORMAL: stress components at the start")
       ->delimiter(',')
       ->check(finite_number);
   parser
-      .add_option(
-          "--to", options.turns,
-          "strain, displacement or stress that is driven, at the end; several are turning points in turn")
+      .add_option("--to", options.turns,
+                  "final value of the driven strain, displacement or stress; several values are turning points")
       ->delimiter(',')
       ->check(finite_number);
-  parser.add_option("--cycles", options.cycles, "how often the turning points are gone through (default 1)")
+  parser.add_option("--cycles", options.cycles, "number of passes through the turning points (default 1)")
       ->check(CLI::Range(1, 10000));
-  parser.add_option("--steps", options.steps, "of a leg (default 100)")->check(CLI::Range(1, 1000000));
+  parser.add_option("--steps", options.steps, "steps per leg (default 100)")->check(CLI::Range(1, 1000000));
   parser.add_flag("--undrained", options.undrained, "no change of volume (of joints: no normal displacement)");
   parser
       .add_option("--normal-stiffness", options.normal_stiffness,
@@ -466,10 +467,11 @@ void add_test_options(CLI::App& parser, DriveOptions& options) {
 Command drive_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<DriveOptions>();
   parser.footer(
-      "sagefe drive --law mohr_coulomb --set E=2e4 --set nu=.3 --set c=5 --set phi=30 --test "
-      "triaxial_compression\n"
-      "             --pressure 100 --to .05 --csv mc.csv --plot mc.svg\n"
-      "Compression positive; strains as fractions. Exit code 3 where a curve ends before its end.");
+      "Example:\n"
+      "  sagefe drive --law mohr_coulomb --set E=2e4 --set nu=.3 --set c=5 --set phi=30\n"
+      "    --test triaxial_compression --pressure 100 --to .05 --csv mc.csv\n"
+      "    --plot mc.svg\n\n"
+      "Compression positive; strains as fractions. Exit code 3 if a curve is not complete.");
   add_law_options(parser, *options);
   add_test_options(parser, *options);
   parser
@@ -480,7 +482,7 @@ Command drive_command(CLI::App& parser, const Catalogue& catalogue) {
       ->allow_extra_args(false);
   parser
       .add_option("--free", options->free,
-                  "NAME or NAME=LOW:HIGH,...: parameters that --fit looks for, from their values of --set on")
+                  "NAME or NAME=LOW:HIGH,...: parameters for --fit, which starts from their values in --set")
       ->delimiter(',');
   parser.add_option("--csv", options->csv,
                     "the curves as a table; - is standard output, in place of the summary");

@@ -133,8 +133,8 @@ int explain(const ExplainOptions& options) {
 Command explain_command(CLI::App& parser, const Catalogue&) {
   auto options = std::make_shared<ExplainOptions>();
   CLI::Option* codes =
-      parser.add_option("CODE", options->codes, "codes as messages show them, such as S501; none lists all");
-  parser.add_option("--search", options->search, "list the messages whose texts hold this")
+      parser.add_option("CODE", options->codes, "codes of messages, such as S501; without a code, list all");
+  parser.add_option("--search", options->search, "list the messages whose texts contain this word")
       ->option_text("WORD")
       ->excludes(codes);
   return [options] { return explain(*options); };

@@ -94,7 +94,7 @@ void add_digits_option(CLI::App& parser, int& digits) {
   parser
       .add_option("--digits", digits,
                   "significant digits of numbers in CSV files and in the reports on the screen (default: 10 in "
-                  "CSV; 16 is the most that means something, 17 gives back every bit)")
+                  "CSV; 16 is the precision of the results, 17 keeps every bit)")
       ->check(CLI::Range(2, 17));
 }
 
@@ -191,17 +191,18 @@ void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue&
   options.heads = stored_heads(catalogue);
   add_formulation_option(parser, "--formulation", "replace the formulation code of all solid elements",
                          [&options](int code) { options.formulation = code; });
-  add_element_option(parser, catalogue, "--element",
-                     "replace 4-node quadrilaterals by this element, code or name (its other nodes are made)",
-                     [&options](int code) { options.element = code; });
+  add_element_option(
+      parser, catalogue, "--element",
+      "replace 4-node quadrilaterals by this element, code or name; its other nodes are generated",
+      [&options](int code) { options.element = code; });
   parser.add_flag(
       "--coarsen", options.coarsen,
-      "first the coarsest mesh of quadrilaterals that has the deck's outline, groups, supports, loads and "
+      "use the coarsest mesh of quadrilaterals with the deck's outline, groups, supports, loads and "
       "reported nodes");
   parser
       .add_option_function<int>(
           "--refine", [&options](int times) { options.refine = times; },
-          "split every element into four, so many times")
+          "split every element into four, this many times")
       ->check(CLI::Range(0, 12));
   parser
       .add_option_function<std::vector<std::string>>(
@@ -221,12 +222,12 @@ void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue&
   parser
       .add_option_function<int>(
           "--refine-graded", [&options](int times) { options.refine_graded = times; },
-          "split every element into four, so many times, after the layers of --grade were made")
+          "split every element into four, this many times, after --grade has made its layers")
       ->check(CLI::Range(0, 12));
   parser.add_flag(
       "--partial", options.partial,
-      "compute what is left of a foreign deck that asks for more than this program has (beams, soils "
-      "whose numbers it lacks); without it such a deck is refused");
+      "compute a foreign deck without the parts that sagefe does not support; otherwise sagefe rejects "
+      "such a deck");
   parser
       .add_option_function<std::vector<std::string>>(
           "--point",

@@ -129,14 +129,13 @@ int check(const CoverageOptions& options) {
 Command layout_command(CLI::App& parser, const Catalogue&) {
   parser.require_subcommand(1);
   CLI::App* guessing = parser.add_subcommand(
-      "guess",
-      "write a first layout for a deck that nobody knows, with the reason for every guess: a draft to finish");
+      "guess", "draft a layout for an unknown deck, with the reason for every guess; finish the draft by hand");
   auto draft_options = std::make_shared<DraftOptions>();
   guessing->add_option("DECK", draft_options->deck, "deck file")->required();
   guessing->add_option("-o,--out", draft_options->out, "layout file to write (otherwise it is printed)");
   CLI::App* checking = parser.add_subcommand("check",
                                              "show what a layout reads of a deck: each kind of card under a "
-                                             "column ruler, unread columns, lines under no card");
+                                             "column ruler, unread columns, unread lines");
   auto check_options = std::make_shared<CoverageOptions>();
   checking->add_option("LAYOUT", check_options->layout, "layout file, or the name of a built-in layout")
       ->required();
@@ -144,7 +143,7 @@ Command layout_command(CLI::App& parser, const Catalogue&) {
   checking->add_flag("--strict", check_options->strict, "warnings are errors");
   guessing->footer(
       "Example:\n  sagefe layout guess old.dat -o old.toml\n  sagefe layout check old.toml old.dat\n"
-      "  sagefe echo old.dat --layout old.toml\nThe draft says why it guesses what. "
+      "  sagefe echo old.dat --layout old.toml\nThe draft gives the reason for each guess: "
       "docs/manual/layout_guess.md\n");
   checking->footer(
       "Exit codes as for sagefe check: 0 the deck reads, 2 it doesn't (with --strict: not without "

@@ -152,9 +152,9 @@ void add_curve_options(CLI::App& parser, PlotOptions& options) {
   parser
       .add_option(
           "--xy", options.xy,
-          "X:Y[,Y...]: columns Y against column X, a curve a file and Y; -NAME turns the sign; a panel each "
-          "time it is given.  Default: of a triaxial report stress and ratio against strain, of a node "
-          "report (a footing) load against displacement.  An unknown name is answered by those that there are")
+          "X:Y[,Y...]: columns Y against column X, one curve per file and Y; -NAME changes the sign; each --xy "
+          "is a panel.  Default: stress and ratio against strain for a triaxial report, load against "
+          "displacement for a node report (a footing).  The error of an unknown name lists the known ones")
       ->allow_extra_args(false)
       ->group(kGroupCurves);
 }
@@ -169,8 +169,8 @@ void add_state_options(CLI::App& parser, PlotOptions& options) {
           "--at", options.at,
           "states: strain=VALUE[,VALUE...], the axial strain of the specimen (0.05 is 5 %); "
           "load=VALUE[,VALUE...], the load factor of the last stage; or STAGE[:INCREMENT].  May be repeated; "
-          "default: the end of every stage.  The file has those that the deck, or sagefe run --states, asks "
-          "for")
+          "default: the end of every stage.  The file has the states that the deck or sagefe run --states "
+          "requests")
       ->allow_extra_args(false)
       ->check([](const std::string& text) { return state_error("--at", text); })
       ->group(kGroupStates);
@@ -185,11 +185,12 @@ void add_state_options(CLI::App& parser, PlotOptions& options) {
       ->check(CLI::PositiveNumber)
       ->group(kGroupStates);
   parser
-      .add_flag("--sheet", options.sheet, "one file with a panel each picture, those of a field on one scale")
+      .add_flag("--sheet", options.sheet,
+                "one file with one panel per picture; panels of one field have one scale")
       ->group(kGroupStates);
   parser
       .add_option("--line", options.line,
-                  "X,Y:X,Y: the fields as curves along this line instead, a curve a state and file")
+                  "X,Y:X,Y: the fields as curves along this line instead, one curve per state and file")
       ->check(line_error)
       ->group(kGroupStates);
   parser
@@ -302,12 +303,12 @@ Command plot_command(CLI::App& parser, const Catalogue& catalogue) {
       .add_option(
           "FILE", options->files,
           "STEM.reportN.csv and other tables of sagefe run, for curves; STEM.h5 of sagefe run DECK --result, "
-          "for --picture, --line and --interface (for curves it stands for STEM.report1.csv beside it)")
+          "for --picture, --line and --interface (for curves it means STEM.report1.csv beside it)")
       ->required();
   parser.add_option("-o,--output", options->folder, "folder of the pictures (default: that of the first file)");
   parser
       .add_option("--name", options->name,
-                  "name of the file (default: after what it shows); with .png or .pdf, in that format too")
+                  "name of the file (default: from its content); with .png or .pdf, in that format too")
       ->check(name_error);
   add_format_option(parser, options->formats);
   parser.add_option("--title", options->title, "title (default: the deck's, of one file)");

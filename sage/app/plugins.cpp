@@ -332,7 +332,7 @@ void add_plugin_options(CLI::App& parser) {
   parser
       .add_option_function<std::vector<std::string>>(
           "--plugin", nothing,
-          "library with laws, elements, solvers or fields of somebody else's, which is loaded; may be repeated")
+          "plug-in library to load, with laws, elements, solvers or fields; may be repeated")
       ->allow_extra_args(false);
   parser
       .add_option_function<std::vector<std::string>>("--umat", nothing,

@@ -41,7 +41,7 @@ constexpr const char* kFooter =
     "are positive along the axes.\n"
     "Exit codes: 0 done; 1 command line; 2 input; 3 no equilibrium, singular or out\n"
     "of memory; 4 output could not be written; 5 interrupted (Ctrl-C, SIGTERM), and\n"
-    "sagefe run --restart goes on.";
+    "sagefe run --restart continues.";
 
 struct Entry {
   const char* name;
@@ -56,39 +56,37 @@ constexpr Entry kCommands[] = {
     {"check", "read and validate decks; compute nothing", check_command, true},
     {"echo", "show each card of a deck as it was read, under a column ruler", echo_command, true},
     {"align", "move the values of a deck into their columns, and name each move", align_command},
-    {"layout", "a first layout for a deck that nobody knows (guess); what a layout reads of a deck (check)",
+    {"layout", "draft a card layout for an unknown deck (guess), or show what a layout reads of a deck (check)",
      layout_command},
-    {"list", "show the elements, materials or solvers that a deck can ask for, the fields of results, or decks",
+    {"list",
+     "list the elements, materials and solvers for decks, the fields of results, or decks to start from",
      list_command, true},
-    {"plot", "curves from the tables of runs and pictures of their states, without running the deck again",
-     plot_command, true},
-    {"conform", "try the pieces of a plug-in: the suites that the program's own pieces pass", conform_command,
-     true},
+    {"plot", "draw curves from tables of earlier runs, and pictures of their states", plot_command, true},
+    {"conform", "run the conformance tests on a plug-in or UMAT", conform_command, true},
     {"new", "write a commented deck that runs, or a folder with a law, an element or a UMAT of your own",
      new_command},
-    {"tables", "rerun the source chapter's Tables 7.3 and 7.4 beside its numbers", tables_command},
-    {"figures", "compute the source chapter's Figures 7.1 to 7.40 and judge its sentences about them",
+    {"tables", "compute the source chapter's Tables 7.3 and 7.4 and compare with its numbers", tables_command},
+    {"figures", "compute the source chapter's Figures 7.1 to 7.40 and check its statements about them",
      figures_command, false, [] { return !studies().figures; }},
     {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
      convert_command, true},
-    {"verify", "the verification book: cases against closed forms, converged references and published values",
-     verify_command, false, [] { return !studies().verify; }},
-    {"compare", "two decks, or one deck in two ways, side by side: forces, stresses, lines, theory, pictures",
+    {"verify", "compare cases with closed forms, converged references and published values", verify_command,
+     false, [] { return !studies().verify; }},
+    {"compare", "compare two decks, or one deck with two settings: forces, stresses, lines, theory, pictures",
      compare_command, true},
-    {"drive", "a law along a laboratory's path (triaxial, oedometer, shear, ...) without a mesh; CSV and plots",
+    {"drive", "run laboratory tests (triaxial, oedometer, shear, ...) on a law without a mesh; CSV and plots",
      drive_command, true},
     {"safety",
      "factor of safety by strength reduction: bracket with the reason for both ends, curve, mechanism",
      safety_command, true},
     {"bounds", "rigorous lower and upper bounds on a collapse load or factor of safety by limit analysis",
      bounds_command, true},
-    {"sweep",
-     "many cases of one deck, by names of its numbers: grids, lists, random draws; one table and a plot",
+    {"sweep", "run many cases of one deck (grids, lists, random draws of its numbers); one table and a plot",
      sweep_command, true},
-    {"stress", "stability stress test: everything swept to the edge must be right or say what is wrong",
+    {"stress", "sweep parameters to their limits: each result must be right, or an error must name the fault",
      stress_command, false, [] { return !studies().stress; }},
-    {"explain", "what a message means and what helps, by the code behind it", explain_command},
-    {"completion", "print what bash, zsh or fish need to complete commands and options", completion_command},
+    {"explain", "explain a message by its code: what it means and what helps", explain_command},
+    {"completion", "print the completion script for bash, zsh or fish", completion_command},
 };
 
 // Help in the columns of a terminal.

@@ -273,7 +273,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
       ->check(CLI::Range(0, 20));
   parser.add_flag(
       "--condition", request.condition,
-      "say the condition number of the equations, and the digits it costs, at the end of each stage");
+      "print the condition number of the equations, and the digits that it costs, after each stage");
   parser.add_option("--tables", options->tables, "tables in the listing: auto, none, stage, all")
       ->check(CLI::IsMember({"auto", "none", "stage", "all"}));
   parser.add_flag("--nodes", request.output.nodes, "write STEM.nodes.csv: displacements and reactions");
@@ -286,7 +286,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser
       .add_option(
           "--states", request.output.states,
-          "increments at which states are written too, besides those that the deck chooses: strain=VALUE,... "
+          "more increments at which states are written, besides those of the deck: strain=VALUE,... "
           "(axial, of the specimen; the nearest increment of the last stage), load=VALUE,... (load factor of "
           "the last stage), or STAGE:INCREMENT,...; may be repeated.  For --result, --picture, --vtu, --msh, "
           "--nodes, --points")
@@ -299,14 +299,13 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   add_converge_options(parser, options->converge);
   parser.add_flag("!--no-listing", request.output.listing, "write no listing");
   parser
-      .add_option(
-          "--without", options->without,
-          "switch off what the program leaves out where a scene does not need it: " + skip_names() + ", all")
+      .add_option("--without", options->without,
+                  "do not skip this kind of work where a model does not need it: " + skip_names() + ", all")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(skip_list()));
   parser.add_flag("--restart", request.restart,
-                  "go on from the checkpoint (STEM.restart) that a stopped run left in the output folder");
+                  "continue from the checkpoint (STEM.restart) of an interrupted run in the output folder");
   parser
       .add_option("--checkpoint", request.checkpoint_seconds,
                   "seconds between checkpoints (default: 30; 0 = after every increment, negative = none)")

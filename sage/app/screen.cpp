@@ -52,11 +52,11 @@ void add_screen_options(CLI::App& parser, ScreenOptions& options) {
       "-q,--quiet", options.quiet, "print no results and no progress, only errors, warnings and notes");
   parser
       .add_flag("-v,--verbose", options.verbose,
-                "say what was chosen and why: solver, threads, kernels, what is left out, times")
+                "print choices and reasons: solver, threads, kernels, skipped work, times")
       ->excludes(quiet);
   parser.add_flag("--json", options.json,
-                  "print one JSON document instead of text (docs/manual/json.md); messages go to standard "
-                  "error as ever");
+                  "print one JSON document instead of text (docs/manual/json.md); messages still go to "
+                  "standard error");
 }
 
 const ScreenOptions& screen() {

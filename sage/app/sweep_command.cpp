@@ -172,10 +172,10 @@ Command sweep_command(CLI::App& parser, const Catalogue& catalogue) {
   CLI::Option* part =
       parser.add_option("--part", o->part, "K/N: only every N-th case from the K-th on, without a table");
   CLI::Option* parallel =
-      parser.add_option("--parallel", o->parallel, "so many worker processes, started by GNU parallel")
+      parser.add_option("--parallel", o->parallel, "number of worker processes, started by GNU parallel")
           ->check(CLI::Range(1, 10'000));
   CLI::Option* slurm =
-      parser.add_option("--slurm", o->slurm, "an array job of so many tasks, submitted by sbatch")
+      parser.add_option("--slurm", o->slurm, "number of tasks of an array job, submitted by sbatch")
           ->check(CLI::Range(1, 10'000));
   part->excludes(parallel)->excludes(slurm);
   parallel->excludes(slurm);
