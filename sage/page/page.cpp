@@ -23,7 +23,7 @@ std::string Page::filled(std::string_view text) {
   std::size_t used = 0;
   for (std::size_t at = 0; at < text.size();) {
     std::size_t end = at;
-    for (bool code = false; end < text.size() && (code || text[end] != ' '); ++end)
+    for (bool code = false; end < text.size() && (code || (text[end] != ' ' && text[end] != '\n')); ++end)
       code = code != (text[end] == '`');
     const std::string_view word = text.substr(at, end - at);
     if (used > 0) out += used + 1 + word.size() > kColumns ? '\n' : ' ';

@@ -13,7 +13,7 @@ class Page {
 
   void heading(int level, const std::string& words);
   void paragraph(const std::string& words);
-  // A paragraph in lines of at most 100 columns; code in `...` is not broken.
+  // A paragraph in lines of at most 100 columns, whatever lines `words` has; code in `...` is not broken.
   void prose(const std::string& words) { paragraph(filled(words)); }
   // For those who look at the source of the page; readers don't see it.
   void note(const std::string& words);

@@ -12,6 +12,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/page/page.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace sage::app {
@@ -310,44 +311,44 @@ std::string reason_of(const fs::path& expected) {
   return text;
 }
 
-std::string page_rows(const std::vector<Expected>& rows, const std::vector<double>& ours) {
+void add_rows(Page& page, const std::vector<Expected>& rows, const std::vector<double>& ours) {
   constexpr std::size_t kMostRows = 40;  // longer tables are told in one sentence if every digit agrees
   std::size_t exact = 0;
-  std::string table =
-      "| quantity | stage | increment | printed | here | difference | from |\n|---|---|---|---|---|---|---|\n";
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Expected& row = rows[i];
-    const double difference = ours[i] - row.value;
-    exact += page_number(ours[i]) == page_number(row.value) || std::abs(difference) <= 1e-12 ? 1 : 0;
-    char relative[32] = "0";
-    if (row.value != 0.0)
-      std::snprintf(relative, sizeof relative, "%+.3f %%", 100.0 * difference / std::abs(row.value));
-    table += "| " + row.quantity + " | " + std::to_string(row.stage) + " | " + std::to_string(row.increment) +
-             " | " + page_number(row.value) + " | " + page_number(ours[i]) + " | " + relative + " | " +
-             row.source + " |\n";
-  }
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    exact += page_number(ours[i]) == page_number(rows[i].value) || std::abs(ours[i] - rows[i].value) <= 1e-12
+                 ? 1
+                 : 0;
   const std::string count = std::to_string(rows.size()) + " printed numbers, ";
   if (rows.size() > kMostRows && exact + 2 >= rows.size())
-    return count + "all of them equal here to the last printed digit (one unit where the fifth is a 5).\n";
-  return count + "of which " + std::to_string(exact) + " are equal here to the last printed digit.\n\n" + table;
+    return page.prose(count +
+                      "all of them equal here to the last printed digit (one unit where the fifth is a 5).");
+  page.prose(count + "of which " + std::to_string(exact) + " are equal here to the last printed digit.");
+  page.table({"quantity", "stage", "increment", "printed", "here", "difference", "from"});
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Expected& row = rows[i];
+    char relative[32] = "0";
+    if (row.value != 0.0)
+      std::snprintf(relative, sizeof relative, "%+.3f %%", 100.0 * (ours[i] - row.value) / std::abs(row.value));
+    page.row({row.quantity, std::to_string(row.stage), std::to_string(row.increment), page_number(row.value),
+              page_number(ours[i]), relative, row.source});
+  }
 }
 
 std::string textbook_page() {
-  std::string page =
-      "# Textbook decks beside their printed results\n\n<!-- Written by the test TextbookPage with "
-      "SAGE_WRITE_MANUAL=1: "
-      "run it again, do not edit. -->\n\nDecks and printed results of Smith and Griffiths, *Programming the "
-      "Finite Element "
-      "Method*, 5th edition (`legacy_inputs/smith_griffiths`),\nrun under the layouts `sg_*`. Each table "
-      "stands in "
-      "`STEM.expected.csv` too, with the tolerance that the regression tests hold it to. "
-      "Quantities:\n`node.NUMBER.column` and "
-      "`point.ELEMENT.POINT.column` of the result tables, `step` what an increment adds, `strength.ROW` the "
-      "table of "
-      "strength\nfactors, `load_factor` the part of the last stage that found equilibrium, `report1` forces on "
-      "the moved nodes.\n"
-      "Why numbers differ was found by running the book's own iterations on the same mesh and points\n"
-      "(`tests/verification/textbook_test.cpp`).\n";
+  Page page("Textbook decks beside their printed results");
+  page.note("Written by the test TextbookPage with SAGE_WRITE_MANUAL=1: run it again, do not edit.");
+  page.prose(
+      "Decks and printed results of Smith and Griffiths, *Programming the Finite Element Method*, 5th edition "
+      "(`legacy_inputs/smith_griffiths`), run under the layouts `sg_*`. Each table is in `STEM.expected.csv` "
+      "too, with "
+      "the tolerance of the regression tests. Quantities: `node.NUMBER.column` and "
+      "`point.ELEMENT.POINT.column` of the "
+      "result tables, `step` the increment of a value, `strength.ROW` the table of strength factors, "
+      "`load_factor` the "
+      "part of the last stage that found equilibrium, `report1` forces on the moved nodes. The reasons for "
+      "differences "
+      "were found by running the book's own iterations on the same mesh and points "
+      "(`tests/verification/textbook_test.cpp`).");
   for (const std::string& name : cases()) {
     if (!name.starts_with("smith_griffiths/")) continue;
     const fs::path expected = fs::path(SAGE_SOURCE_DIR) / "legacy_inputs" / name;
@@ -359,9 +360,11 @@ std::string textbook_page() {
     std::erase_if(rows,
                   [](const Expected& r) { return r.quantity == "exit_code" || r.quantity == "load_factor"; });
     for (const Expected& row : rows) ours.push_back(quantity_of(outcome, deck, row));
-    page += "\n## " + deck.stem().string() + "\n" + reason_of(expected) + "\n\n" + page_rows(rows, ours);
+    page.heading(2, deck.stem().string());
+    if (const std::string reason = reason_of(expected); !reason.empty()) page.prose(reason);
+    add_rows(page, rows, ours);
   }
-  return page;
+  return page.text();
 }
 
 // Words agree, numbers to 0.1 % (or 2e-3 of a percent): the last digit may go either way on another machine.
