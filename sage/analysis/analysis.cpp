@@ -46,8 +46,8 @@ class Analysis::Stages {
   void fail(StepReport& report);
   void find_loose_part(const StepReport& report);
   void recover_for(const StepReport& report);
-  void show_region_for(const StepReport& report);
-  void show_region(bool states);
+  void show_recovered_for(const StepReport& report);
+  void show_recovered(bool states);
   Solution solution() const;
   void offer_checkpoint();
   void leave_step();
@@ -69,7 +69,7 @@ class Analysis::Stages {
   bool is_open_ = false;         // a next increment may be taken
   bool has_tried_ = false;       // all trials are done
   bool is_interrupted_ = false;  // an exception left a step in hand
-  // With the inside of a condensed region recovered, for output that needs it; no entries: none does.
+  // With eliminated dofs recovered, for output that needs it; no entries: none does.
   Eigen::VectorXd shown_u_, shown_force_;
 };
 
@@ -201,14 +201,14 @@ bool Analysis::Stages::take_increment() {
 }
 
 void Analysis::Stages::end_increment(StepReport& report) {
-  const bool behind = system_.assembly().region_is_behind();
+  const bool behind = system_.assembly().is_behind();
   report.points = system_.assembly().count_points();
   find_loose_part(report);
   report.motion = behind ? std::numeric_limits<double>::quiet_NaN() : result_.motion;
   report.smallest_pivot_ratio = system_.smallest_pivot();
   ++result_.increments_done;
   if (behind)
-    show_region_for(report);
+    show_recovered_for(report);
   else
     recover_for(report);
   if (water_flows(system_.assembly()) && (report.increment == 1 || report.increment == report.increments))
@@ -294,17 +294,17 @@ void Analysis::Stages::recover_for(const StepReport& report) {
     system_.assembly().recover_structures();
 }
 
-// Observers that need inner nodes of a region that is behind get a copy in which they are recovered.
-void Analysis::Stages::show_region_for(const StepReport& report) {
+// Observers that need nodes of eliminated dofs that are behind get a copy in which they are recovered.
+void Analysis::Stages::show_recovered_for(const StepReport& report) {
   const bool states =
       observer_list_.wants_states(model_, report) || observer_list_.wants_structures(model_, report);
-  const std::vector<char>& inner = system_.assembly().condensation()->inner_nodes();
-  if (states || observer_list_.wants_nodes(model_, report, inner)) show_region(states);
+  const std::vector<char>& inner = system_.assembly().eliminated().nodes();
+  if (states || observer_list_.wants_nodes(model_, report, inner)) show_recovered(states);
 }
 
-void Analysis::Stages::show_region(bool states) {
+void Analysis::Stages::show_recovered(bool states) {
   Eigen::VectorXd motion;
-  system_.assembly().show_region(motion, shown_force_);
+  system_.assembly().show_recovered(motion, shown_force_);
   shown_u_ = state_.u + motion;
   if (states) system_.assembly().recover_states_at(motion);
 }
@@ -316,8 +316,8 @@ Solution Analysis::Stages::state() {
     leave_step();
     is_interrupted_ = false;
   }
-  if (assembly.region_is_behind())
-    show_region(true);
+  if (assembly.is_behind())
+    show_recovered(true);
   else
     assembly.recover_states();
   return solution();

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/analysis/kept_matrices.hpp"
 #include "sage/analysis/path_error.hpp"
 #include "sage/analysis/shown_status.hpp"
+#include "sage/analysis/step_iteration.hpp"
 #include "sage/analysis/tangent.hpp"
 #include "sage/model/spread_loads.hpp"
 
@@ -64,6 +64,8 @@ void make_elastic(GroupData& data) {
       data.law);
 }
 
+}  // namespace
+
 bool all_finite(const FieldSums& values) {
   return std::ranges::all_of(values, [](double v) { return std::isfinite(v); });
 }
@@ -74,18 +76,8 @@ FieldSums scales_of(const FieldSums& a, const FieldSums& b) {
   return scales;
 }
 
-}  // namespace
-
-Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, WorkCounters& work)
-    : model_(&model),
-      scene_(&scene),
-      skips_(skips),
-      work_(&work),
-      dof_map_(model),
-      element_(model, !scene.linear),
-      changing_(groups_, element_, work),
-      constant_(model, groups_, element_, work),
-      deferred_(std::ranges::any_of(model.groups, &Group::structure)) {
+Assembly::Assembly(const Model& model, const Scene& scene, WorkCounters& work, const Prepare& prepare)
+    : model_(&model), scene_(&scene), work_(&work), dof_map_(model), element_(model, !scene.linear) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     GroupData data(model.groups[g]);
     data.law = model.material_of(model.groups[g]).law_ref();
@@ -95,15 +87,12 @@ Assembly::Assembly(const Model& model, const Scene& scene, const Skips& skips, W
     eases_ = eases_ || (data.wants_context && data.group->flow());
     wants_step_time_ = wants_step_time_ || data.wants_context || data.sees_spread ||
                        data.group->element->traits().sees_unknowns;
-    data.constant =
-        scene.group_linear[g] != 0 && skips.elements && ConstantRegion::suits(*data.group, data.law);
     list_dofs(data, dof_map_);
-    find_fours(data);
+    if (prepare) prepare(data, g);
     groups_.push_back(std::move(data));
     reset_group(g);
   }
   internal_.setZero(dof_map_.dofs());
-  if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.size_forces(dof_map_.dofs());
 }
 
 void Assembly::set_step_time(const StepTime& step_time) {
@@ -162,61 +151,21 @@ void Assembly::take_laws() {
   for (GroupData& data : groups_) {
     data.law = model_->material_of(*data.group).law_ref();
     data.second_law = model_->second_law_of(*data.group);
-    data.step_of_matrices = {};
-    find_fours(data);
-    std::ranges::fill(data.constant_four_abreast, char{0});
   }
-}
-
-// What moved so far concerns the groups that were active then.
-bool Assembly::constant_groups_change(const Activity& activity) const {
-  for (std::size_t g = 0; g < groups_.size(); ++g)
-    if (groups_[g].constant && groups_[g].active != (activity.group[g] != 0)) return true;
-  return false;
 }
 
 void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate) {
-  if (deferred_.behind() && constant_groups_change(activity)) recover_states();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].active = activity.group[g] != 0;
-    if (!groups_[g].active) continue;
-    make_room_for_matrices(g);
-    mark_moved(groups_[g], rate);
+    if (groups_[g].active) mark_moved(groups_[g], rate);
   }
   equations_.number(*model_, activity);
-  condensation_.reset();
-  region_step_ = RegionStep::open;
   number_elements();
 }
 
-void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate, int increments,
-                           const SolverMaker& make) {
-  enter_stage(activity, rate);
-  if (!skips_.condensation || scene_->linear || !dof_map_.only_displacement()) return;
-  Profile::Scope scope(work_->profile, phase::kCondensation);
-  condensation_ =
-      condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, scene_->symmetric, make);
-  if (!condensation_) return;
-  rate_ = rate;
-  scope.add_operations(condensation_->report().factor_operations);
-  work_->condensed = condensation_->condensed();
-  work_->twin_equations = std::max(work_->twin_equations, long{condensation_->repeated_equations()});
-  equations_.keep(condensation_->kept());
-  number_elements();
-}
-
-void Assembly::set_stage_loads(const Eigen::VectorXd& loads) {
-  const Profile::Scope scope(work_->profile, phase::kCondensation);
-  if (condensation_) condensation_->begin_stage(loads, rate_, constant_.sums()[0]);
-}
-
-void Assembly::make_room_for_matrices(std::size_t group) {
-  GroupData& data = groups_[group];
-  if (data.keeps_matrices() || data.group->elements() == 0) return;
-  if (data.constant)
-    constant_.make_matrices(data, scene_->shapes[group]);
-  else if (skips_.factors && !scene_->linear)
-    keep_matrices(data);
+const EliminatedDofs& Assembly::eliminated() const {
+  static const EliminatedDofs none;
+  return none;
 }
 
 void Assembly::number_elements() {
@@ -226,7 +175,6 @@ void Assembly::number_elements() {
     data.first_element = elements_;
     elements_ += data.group->elements();
   }
-  if (condensation_) ++elements_;
 }
 
 ElementEquations Assembly::element_equations() const {
@@ -234,7 +182,7 @@ ElementEquations Assembly::element_equations() const {
   std::size_t terms = 0;
   for (const GroupData& data : groups_)
     if (in_system(data)) terms += static_cast<std::size_t>(data.group->elements()) * data.dofs();
-  list.equations.reserve(terms + (condensation_ ? equations_.dofs().size() : 0));
+  list.equations.reserve(terms);
   list.offset.reserve(static_cast<std::size_t>(elements_) + 1);
   for (const GroupData& data : groups_)
     if (in_system(data)) append_equations(data, equations_.of_dofs(), list);
@@ -243,68 +191,38 @@ ElementEquations Assembly::element_equations() const {
       const auto field = static_cast<std::size_t>(dof_map_.at(dof_of(eq)).field);
       list.pressure.push_back(model_->unknowns[field].of_pores ? 1 : 0);
     }
-  if (!condensation_) return list;
-  for (int eq = 0; eq < equations(); ++eq) list.equations.push_back(eq);
-  list.offset.push_back(static_cast<std::int64_t>(list.equations.size()));
   return list;
 }
 
-// All matrices that are kept (those of other groups are added as they are made).
-void Assembly::fill(Tangent& tangent) const {
-  for (const GroupData& data : groups_) {
-    if (!in_system(data) || !data.keeps_matrices()) continue;
-    if (!data.constant) {
-      changing_.add_kept(data, tangent);
-      continue;
-    }
-    for (int e = 0; e < data.group->elements(); ++e) {
-      element_.stop_if_asked_at(e);
-      add_matrix(data, e, data.matrix_of(e), tangent);
-    }
+Outcome Assembly::evaluate_group(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent,
+                                 FieldSums& sums) {
+  double* const K = tangent != nullptr ? element_.K() : nullptr;
+  for (int e = 0; e < data.group->elements(); ++e) {
+    element_.stop_if_asked_at(e);
+    if (element_.evaluate(data, e, &du, K) == Outcome::cut_step) return Outcome::cut_step;
+    add_force(data, e, element_.f(), forces_, sums);
+    if (tangent != nullptr) add_matrix(data, e, K, *tangent);
   }
-  if (condensation_) tangent.add(elements_ - 1, condensation_->S().data());
+  work_->element_evaluations += data.group->elements();
+  return Outcome::ok;
 }
 
-// Forces and matrices of the groups that are not constant, and all kept matrices into the tangent.
-Outcome Assembly::evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent) {
-  ++(tangent != nullptr ? work_->assemblies : work_->residuals);
-  const auto elements = [&] { return changing_.evaluate(du, tangent); };
-  Outcome outcome = Outcome::ok;
-  if (tangent != nullptr) {
-    const bool all_kept = std::ranges::all_of(groups_, [](const GroupData& data) {
-      return !data.active || data.group->elements() == 0 || data.keeps_matrices();
-    });
-    outcome = tangent->assemble(all_kept, elements, [&] { fill(*tangent); });
-  } else {
-    outcome = elements();
-  }
-  return outcome == Outcome::ok && all_finite(changing_.sums()) ? Outcome::ok : Outcome::cut_step;
-}
-
-// to: forces of all elements.
-void Assembly::add_constant(const Eigen::VectorXd& du, Eigen::VectorXd& to) {
-  if (changing_.forces().size() > 0)
-    to = changing_.forces();
-  else
-    to.setZero(dof_map_.dofs());
-  if (region_is_behind()) {
-    motion_ = du;
-    condensation_->add_motion(motion_);
-    constant_.add_forces(motion_, to);
-  } else {
-    constant_.add_forces(du, to);
-  }
-  force_scale_ = scales_of(changing_.sums(), constant_.sums());
-}
-
+// A pass that fails leaves the forces of the one before.
 Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
-  const bool behind = region_is_behind() && region_step_ != RegionStep::filled_in;
-  if (behind || region_step_ == RegionStep::waits) return evaluate_with_border(du, tangent);
   const Profile::Scope scope(work_->profile, phase::kAssembly);
-  Outcome outcome = evaluate_changing(du, tangent);
+  ++(tangent != nullptr ? work_->assemblies : work_->residuals);
+  FieldSums sums{};
+  const auto elements = [&] {
+    forces_.setZero(dof_map_.dofs());
+    for (GroupData& data : groups_)
+      if (data.active && evaluate_group(data, du, tangent, sums) == Outcome::cut_step) return Outcome::cut_step;
+    return Outcome::ok;
+  };
+  Outcome outcome = tangent != nullptr ? tangent->assemble(false, elements, [] {}) : elements();
+  if (outcome == Outcome::ok && !all_finite(sums)) outcome = Outcome::cut_step;
   if (outcome == Outcome::ok) {
-    add_constant(du, internal_);
-    if (!all_finite(force_scale_)) outcome = Outcome::cut_step;
+    internal_ = forces_;
+    force_scale_ = scales_of(sums, {});
   }
   if (tangent != nullptr) tangent->settle(outcome);
   return outcome;
@@ -321,76 +239,40 @@ Outcome Assembly::evaluate_elastic(Tangent& tangent) {
   return outcome;
 }
 
-// The force scale of the constant region is that of the last whole evaluation.
-Outcome Assembly::evaluate_with_border(const Eigen::VectorXd& du, Tangent* tangent) {
-  const Profile::Scope scope(work_->profile, phase::kAssembly);
-  const Outcome outcome = evaluate_changing(du, tangent);
-  if (tangent != nullptr) tangent->settle(outcome);
-  if (outcome == Outcome::cut_step) return outcome;
-  internal_ = changing_.forces();
-  condensation_->add_forces(du, internal_);
-  force_scale_ = scales_of(changing_.sums(), constant_.sums());
-  return Outcome::ok;
-}
-
 double Assembly::path_error() const {
   return scene_->linear ? 0.0
                         : mean_path_error(model_->mesh, groups_, scene_->group_linear, element_.step_time());
 }
 
-void Assembly::commit_again(const Eigen::VectorXd& du) {
-  for (GroupData& data : groups_)
-    if (data.active && !data.constant) data.state.commit();
-  if (region_step_ == RegionStep::waits)
-    condensation_->accept_border(du);
-  else
-    commit_constant();
+std::unique_ptr<IteratedStep> Assembly::begin_step(const Eigen::VectorXd& /*target*/, double /*rate_part*/,
+                                                   const StageSoFar& /*so_far*/) {
+  return std::make_unique<IteratedStep>(*this);
 }
 
-// Of constant groups, of which a step has the forces.
-void Assembly::commit_constant() {
-  for (GroupData& data : groups_)
-    if (data.active && data.constant) std::swap(data.force, data.trial_force);
-  if (region_step_ == RegionStep::filled_in) condensation_->accept_whole(constant_.sums()[0]);
+Outcome IteratedStep::iterate(const Eigen::VectorXd& du, Tangent* tangent) {
+  return assembly_->evaluate(du, tangent);
 }
 
-void Assembly::commit(const Eigen::VectorXd& du) {
-  if (region_step_ == RegionStep::waits) ++work_->border_steps;
-  commit_again(du);
-  const bool constant =
-      std::ranges::any_of(groups_, [](const GroupData& data) { return data.active && data.constant; });
-  if (!constant) return;
-  deferred_.move(du);
-  if (!skips_.states) recover_states();
+IterationRecord IteratedStep::measure(StepIteration& step) {
+  return step.measure();
+}
+
+void Assembly::commit_again(const Eigen::VectorXd& /*du*/) {
+  for (GroupData& data : groups_)
+    if (data.active) data.state.commit();
 }
 
 void Assembly::exchange(Archive& archive, bool before_step) {
-  const bool condensed = before_step && condensation_ != nullptr;
-  if (condensed) {
-    archive(region_step_);
-    condensation_->exchange(archive);
-    FieldSums sums = constant_.sums();
-    archive(sums);
-    constant_.set_sums(sums);
-  }
-  const bool forces_before = before_step && region_step_ != RegionStep::waits;
-  for (GroupData& data : groups_) {
-    const bool trial = before_step && data.active && !data.constant && !archive.reading();
-    PointStates& states = trial ? data.state.trial : data.state.committed;
-    archive(states.sigma);
-    archive(states.eps);
-    archive(states.h);
-    archive(states.status);
-    if (data.constant)
-      archive(forces_before && data.active && !archive.reading() ? data.trial_force : data.force);
-  }
-  deferred_.exchange(archive);
-  if (condensed && archive.reading()) take_constant_force();
+  for (GroupData& data : groups_) exchange_states(data, archive, before_step);
 }
 
-void Assembly::take_constant_force() {
-  constant_force_.setZero(dof_map_.dofs());
-  constant_.add_committed_forces(constant_force_);
+void Assembly::exchange_states(GroupData& data, Archive& archive, bool before_step) {
+  const bool trial = before_step && data.active && !data.constant && !archive.reading();
+  PointStates& states = trial ? data.state.trial : data.state.committed;
+  archive(states.sigma);
+  archive(states.eps);
+  archive(states.h);
+  archive(states.status);
 }
 
 std::array<long, kStatuses> Assembly::count_points() const {
@@ -401,97 +283,6 @@ std::array<long, kStatuses> Assembly::count_points() const {
       ++counts[static_cast<std::size_t>(shown_status(model_->mesh, data, p))];
   }
   return counts;
-}
-
-namespace {
-
-// What one solution leaves of the forces is rounding, times the stiffness ratio within the region.
-constexpr double kRounding = 1e-14;
-
-}  // namespace
-
-IteratedStep::IteratedStep(Assembly& assembly, const Eigen::VectorXd& target, double rate_part,
-                           const StageSoFar& so_far)
-    : assembly_(&assembly), region_(assembly.condensation_.get()) {
-  if (region_ == nullptr) return;
-  const Profile::Scope scope(assembly.work_->profile, phase::kCondensation);
-  assembly.region_step_ = Assembly::RegionStep::open;
-  if (!region_->predictor().is_behind()) assembly.take_constant_force();
-  region_->begin_step(rate_part, so_far, target, assembly.constant_force_, kRounding * assembly.force_scale(0));
-  assembly.internal_ = assembly.changing_.forces();
-  region_->add_start_forces(assembly.internal_);
-}
-
-Outcome IteratedStep::iterate(const Eigen::VectorXd& du, Tangent* tangent) {
-  return region_ == nullptr ? assembly_->evaluate(du, tangent) : assembly_->evaluate_with_border(du, tangent);
-}
-
-void IteratedStep::complete(Eigen::VectorXd& du) {
-  if (region_ == nullptr) return;
-  Assembly& all = *assembly_;
-  const Profile::Scope scope(all.work_->profile, phase::kCondensation);
-  all.fill_in(du, all.internal_);
-  region_->set_base(all.internal_, all.changing_.forces(), du);
-  all.region_step_ = Assembly::RegionStep::filled_in;
-}
-
-bool IteratedStep::must_fill_in() const {
-  if (region_ == nullptr) return false;
-  const bool is_filled_in = assembly_->region_step_ == Assembly::RegionStep::filled_in;
-  return is_filled_in || !assembly_->skips_.states || !region_->predictor().may_wait();
-}
-
-bool IteratedStep::wait(const Eigen::VectorXd& du, double out_of_balance, double limit) {
-  constexpr double kFarBelow = 1e-3;
-  if (region_ == nullptr || must_fill_in()) return false;
-  Assembly& all = *assembly_;
-  const double most = limit * std::sqrt(all.changing_.sums()[0] + region_->predictor().least_force_squares());
-  if (!(out_of_balance <= most) || !(region_->rounding(du) <= kFarBelow * most)) return false;
-  all.region_step_ = Assembly::RegionStep::waits;
-  return true;
-}
-
-double IteratedStep::whole_norm(const Eigen::VectorXd& correction) {
-  return region_ != nullptr ? region_->whole_norm(correction) : correction.norm();
-}
-
-// forces: of all elements there.
-void Assembly::fill_in(Eigen::VectorXd& du, Eigen::VectorXd& forces) {
-  constexpr int kSteps = 3;
-  condensation_->complete(du);
-  add_constant(du, forces);
-  double residual = condensation_->largest_residual(forces);
-  for (int i = 0; i < kSteps && residual > kRounding * force_scale(0); ++i) {
-    condensation_->refine(forces, du);
-    add_constant(du, forces);
-    const double last = std::exchange(residual, condensation_->largest_residual(forces));
-    if (residual > 0.5 * last) break;
-  }
-}
-
-void Assembly::catch_up(const Eigen::VectorXd& target, double share, const Eigen::VectorXd& start,
-                        Eigen::VectorXd& u) {
-  Eigen::VectorXd du = Eigen::VectorXd::Zero(u.size());
-  IteratedStep(*this, target, 0.0, {share, &start, &u}).complete(du);
-  commit_constant();
-  drop_step();
-  deferred_.move(du);
-  u += du;
-}
-
-void Assembly::show_region(Eigen::VectorXd& motion, Eigen::VectorXd& forces) {
-  const Profile::Scope scope(work_->profile, phase::kCondensation);
-  const FieldSums scale = force_scale_, sums = constant_.sums();
-  motion.setZero(dof_map_.dofs());
-  fill_in(motion, forces);
-  force_scale_ = scale;
-  constant_.set_sums(sums);
-}
-
-void Assembly::recover_states_at(const Eigen::VectorXd& motion) {
-  deferred_.move(motion);
-  recover_states();
-  deferred_.move(-motion);
 }
 
 }  // namespace sage

@@ -9,8 +9,7 @@ namespace sage {
 double CurrentStiffness::load_work() const {
   const StagePath& path = run_.state.path;
   const Eigen::VectorXd loads = path.force_end - path.force_start;
-  const Condensation* const region = run_.assembly().condensation();
-  return region != nullptr ? region->load_work(loads, run_.state.du) : loads.dot(run_.state.du);
+  return run_.assembly().eliminated().load_work(loads, run_.state.du);
 }
 
 void CurrentStiffness::measure(double size) {

@@ -41,7 +41,7 @@ bool DampedSteps::proves() const {
 // iterations, without a limit of the ground.
 bool DampedSteps::suits(const NewtonStep& step, bool on_last_way) const {
   if (step.outcome == StepOutcome::converged || run_.tangent().linear() ||
-      run_.assembly().condensation() != nullptr || run_.assembly().dof_map().displacements() == 0)
+      !run_.assembly().eliminated().dofs().empty() || run_.assembly().dof_map().displacements() == 0)
     return false;
   // These are tried again otherwise first.
   if (step.finished || stepper_.newton() == Stepper::Newton::finer ||

@@ -143,4 +143,10 @@ void add_force(const GroupData& data, int element, const double* f, Eigen::Vecto
     sums[static_cast<std::size_t>(data.field_of_dof[i])] += f[i] * f[i];
 }
 
+bool has_matrix_of_step(const GroupData& data) {
+  const ElementTraits& traits = data.group->element->traits();
+  return traits.linear_in_step && has_constant_stiffness(data.law) &&
+         (traits.second_law_size == 0 || has_constant_stiffness(data.second_law));
+}
+
 }  // namespace sage

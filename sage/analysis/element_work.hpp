@@ -55,6 +55,9 @@ class ElementWork {
   std::vector<PointContext> contexts_;  // of one element; none where no law wants them
 };
 
+// Whether the elements of a group have one matrix for each step size.
+bool has_matrix_of_step(const GroupData& data);
+
 // Adds an element's forces to those of all dofs, and their squares to the sums.
 void add_force(const GroupData& data, int element, const double* f, Eigen::VectorXd& to, FieldSums& sums);
 

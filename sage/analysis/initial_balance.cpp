@@ -79,7 +79,8 @@ InitialImbalance initial_imbalance(const Model& model) {
     return {};
   const Scene scene = analyse_scene(model);
   WorkCounters work;
-  Assembly assembly(model, scene, {}, work);
+  const std::unique_ptr<Assembly> owned = make_assembly(model, scene, {}, work);
+  Assembly& assembly = *owned;
   Activity activity(model);
   activity.enter(first);
   assembly.enter_stage(activity, prescribed_rate(first, activity.dof_map));

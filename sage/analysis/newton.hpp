@@ -19,7 +19,7 @@ struct NewtonSettings {
   double tolerance = 1e-8;  // force and energy; displacement sqrt(tolerance)
   bool line_search = true;
   const Eigen::VectorXd* committed = nullptr;  // unknowns at the start of the step, every dof; null = zero
-  StageSoFar so_far{};                         // from which a condensed region extrapolates
+  StageSoFar so_far{};                         // from which eliminated dofs are extrapolated
   Pulse* pulse = nullptr;                      // receives every iteration; null = none does
   bool stop_at_flow = false;                   // gives up a step that turns into flow (NewtonStep::flows)
   NewtonStart start = NewtonStart::committed;

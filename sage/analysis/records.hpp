@@ -88,7 +88,7 @@ struct StepReport {
   WorstDof worst;  // after a failure: of the iteration that came nearest to equilibrium
   double smallest_pivot_ratio = -1.0;
   // So far: difference of displacements along an axis over the model's extent along it; NaN while a condensed region is
-  // behind (Assembly::region_is_behind).
+  // behind (Assembly::is_behind).
   double motion = 0.0;
   double refused = 0.0;  // the same of the last step that was refused as flow without end; 0 = none was
 };

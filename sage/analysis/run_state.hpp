@@ -20,7 +20,7 @@ struct StagePath {
   Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
   Eigen::VectorXd force_end;                    // loads at its end
   Eigen::VectorXd water_force;                  // of them, those of water; empty = no water
-  Eigen::VectorXd u_start;                      // unknowns at its start, where a region is condensed
+  Eigen::VectorXd u_start;                      // unknowns at its start, where dofs are eliminated
   // Of excess pressures, what has come or gone where stages before held them and this one does not; empty = no such field.
   Eigen::VectorXd let_in;
   std::unique_ptr<SteppingPolicy> policy = std::make_unique<SteppingPolicy>();

@@ -2,8 +2,8 @@
 // states, condensation or twins results differ by rounding.  Without repeats, contraction or prediction the iterations
 // take another path: results differ by what the tolerance allows, and by more where several states are in equilibrium
 // (points at the apex of a yield surface, a singular tangent).
-// Each has a file: kept_matrices (factors), constant_region (elements), deferred_states, condensation, repeats, contraction,
-// prediction, and in solvers/ repeated_fronts.
+// Each has a file in skips/: kept_matrices (factors), constant_region (elements), deferred_states, condensation, repeats,
+// contraction, prediction; and in solvers/ repeated_fronts (twins).
 #pragma once
 
 #include <array>

@@ -146,7 +146,7 @@ void StageStart::find_loads(int stage) {
   begin_water(stage, water ? &*water : nullptr);
   let_in_what_came(stage);
   path.u_start.resize(0);
-  if (run_.assembly().condensation() == nullptr) return;
+  if (run_.assembly().eliminated().dofs().empty()) return;
   path.u_start = state.u;
   run_.assembly().set_stage_loads(path.force_end - path.force_start);
 }

@@ -30,18 +30,18 @@ void StepControl::resume() {
   last_du_ = run_.state.du;
   stiffness_.set_committed(run_.assembly().internal_force());
   if (path.own_tangent) run_.tangent().set_aside();
-  if (run_.assembly().condensation() != nullptr)
+  if (!run_.assembly().eliminated().dofs().empty())
     run_.assembly().set_stage_loads(path.force_end - path.force_start);
 }
 
-// A condensed region relies on loads that grow along one line: the rest of the stage does without it.
+// Dofs are eliminated for loads that grow along one line: the rest of the stage does without that.
 void StepControl::take_loads() {
   StagePath& path = run_.state.path;
   path.forget_steps();
   path.u_start.resize(0);
   on_last_way_ = false;
-  if (run_.assembly().condensation() == nullptr) return;
-  run_.system.leave_condensation();
+  if (run_.assembly().eliminated().dofs().empty()) return;
+  run_.system.renumber();
   run_.state.du.setZero();
   run_.set_step_time(run_.state.reached, 0.0);
   run_.assembly().evaluate(run_.state.du, nullptr);
@@ -164,14 +164,13 @@ void StepControl::move_to(double load_factor) {
   state.reached = load_factor;
   state.external = (1.0 - load_factor) * state.path.external_start + load_factor * state.path.force_end;
   if (!state.path.pore_end.empty()) run_.set_water(load_factor);
-  if (!assembly.region_is_behind())
-    run_.result.motion = std::max(run_.result.motion, run_.extent.motion(state.u));
+  if (!assembly.is_behind()) run_.result.motion = std::max(run_.result.motion, run_.extent.motion(state.u));
 }
 
 void StepControl::drop_step() {
   RunState& state = run_.state;
   run_.assembly().drop_step();
-  if (!run_.assembly().region_is_behind()) return;
+  if (!run_.assembly().is_behind()) return;
   state.target = run_.loads_at(state.reached);
   run_.assembly().catch_up(state.target, state.reached, state.path.u_start, state.u);
   run_.result.motion = std::max(run_.result.motion, run_.extent.motion(state.u));
@@ -233,7 +232,7 @@ bool StepControl::relax(StepReport& report, double end) {
   RunState& state = run_.state;
   const double begin = state.reached;
   drop_step();
-  if (run_.assembly().condensation() != nullptr) take_loads();
+  if (!run_.assembly().eliminated().dofs().empty()) take_loads();
   while (state.reached < end) {
     double to = end;
     Relaxation relaxation(run_, damped_.of_solids());

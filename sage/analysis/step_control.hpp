@@ -34,7 +34,7 @@ class StepControl {
   const NewtonStep& failed() const { return failed_; }
   // NewtonStep::force_left of the last step that converged.
   double force_left() const { return force_left_; }
-  // The step in hand will not be committed: forces and unknowns of a condensed region become those of the committed state.
+  // The step in hand will not be committed: forces and unknowns of eliminated dofs become those of the committed state.
   void drop_step();
 
  private:

@@ -14,7 +14,7 @@ StepIteration::StepIteration(Assembly& assembly_of_step, Tangent& tangent_of_ste
       settings(settings_of_step),
       work(counters),
       du(step),
-      pass(assembly, target, part, settings.so_far),
+      pass(assembly.begin_step(target, part, settings.so_far)),
       policy(settings.policy != nullptr ? *settings.policy : plain_policy),
       rate_part(part),
       measures(assembly, tangent, target, settings, du),
@@ -26,14 +26,14 @@ StepIteration::StepIteration(Assembly& assembly_of_step, Tangent& tangent_of_ste
 
 Outcome StepIteration::assemble(bool with_K) {
   K_is_here = with_K;
-  const Outcome outcome = pass.iterate(du, with_K ? &tangent : nullptr);
+  const Outcome outcome = pass->iterate(du, with_K ? &tangent : nullptr);
   if (outcome == Outcome::ok) form_residual();
   return outcome;
 }
 
 Outcome StepIteration::form_tangent() {
   K_is_here = true;
-  return pass.iterate(du, &tangent);
+  return pass->iterate(du, &tangent);
 }
 
 void StepIteration::form_residual() {
@@ -115,34 +115,13 @@ Eigen::VectorXd StepIteration::free_part_of_du() const {
   return free;
 }
 
-IterationRecord StepIteration::measure_whole() {
-  if (assembly.condensation() == nullptr) return measure();
-  pass.complete(du);
-  form_residual();
-  IterationRecord record = measure();
-  const double size = assembly.condensation()->step_norm(du);
-  // The displacement counts where the energy does not decide.
-  if (record.energy > settings.tolerance * settings.tolerance && size > 0.0)
-    record.displacement = pass.whole_norm(correction) / size;
-  return record;
-}
-
 bool StepIteration::converged() {
-  const auto is_met = [&](const IterationRecord& record) {
-    return criterion.is_met(measures.measured(), record, result.iterations, measures);
-  };
-  // The scale of a condensed region's forces is that of an earlier step, or of what was before the stage.
-  const double rough = pass.begins_stage() ? 10.0 : 2.5;
-  IterationRecord record = measure();
-  const bool balanced = is_met(record);
-  const bool near = pass.must_fill_in() && record.force <= rough * settings.tolerance;
-  if ((balanced || near) && !(balanced && pass.wait(du, residual.norm(), settings.tolerance)))
-    record = measure_whole();
+  const IterationRecord record = pass->measure(*this);
   result.iterations.push_back(record);
   if (settings.pulse != nullptr)
     settings.pulse->iterated(static_cast<int>(result.iterations.size()), record.force);
   const double size = residual_size();
-  const bool done = is_met(record);
+  const bool done = is_in_equilibrium(record);
   if (done || size <= best) result.worst = measures.worst(residual);
   best = std::min(best, size);
   if (!done) return false;

@@ -33,8 +33,9 @@ struct StepIteration {
   void take_prescribed(const Eigen::VectorXd& rate);
   Eigen::VectorXd free_part_of_du() const;
   IterationRecord measure() { return measures.measure(correction, residual, step_length); }
-  // With a condensed region: of the whole model, as without one.
-  IterationRecord measure_whole();
+  bool is_in_equilibrium(const IterationRecord& record) const {
+    return criterion.is_met(measures.measured(), record, result.iterations, measures);
+  }
   double residual_size() const { return measures.size_of(residual); }
   double work_left() const { return measures.work_left(correction, residual); }
   bool is_hopeless() const { return measures.is_hopeless(residual); }
@@ -52,7 +53,7 @@ struct StepIteration {
   const NewtonSettings& settings;
   WorkCounters& work;
   Eigen::VectorXd& du;
-  IteratedStep pass;
+  std::unique_ptr<IteratedStep> pass;
   IterationPolicy plain_policy;
   IterationPolicy& policy;  // the plain one, or that of the settings
   double rate_part;         // of the stage's prescribed displacements

@@ -22,8 +22,8 @@ double StepMeasures::load_size(int field) const {
   double sum = 0.0;
   const ByField::Piece own = fields_.equations_of(field);
   for (int eq = own.begin; eq < own.end; ++eq) sum += std::pow(target_[assembly_.dof_of(eq)], 2);
-  if (const Condensation* region = assembly_.condensation(); region != nullptr && field == 0)
-    for (int dof : region->condensed_dofs()) sum += std::pow(target_[dof], 2);
+  if (field == 0)
+    for (int dof : assembly_.eliminated().dofs()) sum += std::pow(target_[dof], 2);
   return std::sqrt(sum);
 }
 
@@ -40,10 +40,9 @@ double StepMeasures::take_first(const Eigen::VectorXd& motion, const Eigen::Vect
   double work = 0.0;
   for (int f = 0; f < fields_.count(); ++f)
     work += at(energy_scale_, f) = std::abs(fields_.dot(motion, force, f));
-  if (const Condensation* region = assembly_.condensation()) {
-    energy_scale_[0] += std::abs(region->held_work());
-    work = energy_scale_[0];
-  }
+  const double held = std::abs(assembly_.eliminated().held_work());
+  energy_scale_[0] += held;
+  work += held;
   for (int f = 0; f < fields_.count(); ++f)
     at(first_force_, f) =
         std::max({fields_.norm(force, f), at(start_scale_, f), at(load_scale_, f), own_forces(motion, f)});

@@ -29,12 +29,12 @@ System::System(const Model& model, const Catalogue& catalogue, const RunSettings
       settings_(settings),
       work_(work),
       scene_(analyse_scene(model)),
-      assembly_(model, scene_, settings.skips, work),
+      assembly_(make_assembly(model, scene_, settings.skips, work)),
       activity_(model),
-      tangent_(scene_.linear, settings.skips.factors),
+      tangent_(scene_.linear, assembly_->keeps_factors()),
       lived_(model.groups.size(), 0) {
-  assembly_.set_stop(settings.stop_asked);
-  assembly_.set_threads(settings.threads);
+  assembly_->set_stop(settings.stop_asked);
+  assembly_->set_threads(settings.threads);
 }
 
 const SolverEntry* System::choose_solver(int equations, bool symmetric) const {
@@ -57,18 +57,18 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry, bool one_fa
                      .refinement_steps = settings_.refinement,
                      .one_factorisation = one_factorisation,
                      .stop_asked = settings_.stop_asked});
-  if (auto* repeated = dynamic_cast<RepeatedParts*>(solver.get()))
-    repeated->use_repeated_parts(settings_.skips.twins);
+  set_up_solver(settings_.skips, *solver);
   return solver;
 }
 
 void System::analyse() {
-  const SolverEntry* entry = choose_solver(assembly_.equations(), scene_.symmetric);
+  const SolverEntry* entry = choose_solver(assembly_->equations(), scene_.symmetric);
   std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
   if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get()))
-    placed->set_places(places_of(model_.mesh, assembly_));
-  tangent_.analyse(std::move(solver), entry->name, assembly_.equations(), assembly_.element_equations(), work_);
-  if (assembly_.equations() >= kManyEquations) return_freed_memory();
+    placed->set_places(places_of(model_.mesh, *assembly_));
+  tangent_.analyse(std::move(solver), entry->name, assembly_->equations(), assembly_->element_equations(),
+                   work_);
+  if (assembly_->equations() >= kManyEquations) return_freed_memory();
   held_before_ = activity_.held;
   groups_before_ = activity_.group;
 }
@@ -77,7 +77,7 @@ void System::analyse() {
 void System::enter(const Stage& stage) {
   activity_.enter(stage);
   for (int g : stage.births)
-    if (lived_[static_cast<std::size_t>(g)]) assembly_.reset_group(static_cast<std::size_t>(g));
+    if (lived_[static_cast<std::size_t>(g)]) assembly_->reset_group(static_cast<std::size_t>(g));
   for (std::size_t g = 0; g < lived_.size(); ++g) lived_[g] = lived_[g] || activity_.group[g];
 }
 
@@ -91,14 +91,15 @@ void System::open_stage(int s) {
   enter(stage);
   if (stage.pores != PoreWater::flows)
     for (const auto& [dof, supported] : activity_.pores) rate_[dof] = 0.0;
-  const bool condensed_before = assembly_.condensation() != nullptr;
-  assembly_.enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
+  const bool eliminated_before = !assembly_->eliminated().dofs().empty();
+  assembly_->enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
     return make(*choose_solver(equations, symmetric), true);
   });
   tangent_.set_rate(rate_);
   exits_.enter(model_, activity_, s);
-  const bool same_pattern = tangent_.analysed() && !condensed_before && !assembly_.condensation() &&
-                            held_before_ == activity_.held && groups_before_ == activity_.group;
+  const bool same_pattern = tangent_.analysed() && !eliminated_before &&
+                            assembly_->eliminated().dofs().empty() && held_before_ == activity_.held &&
+                            groups_before_ == activity_.group;
   if (!same_pattern) analyse();
   const bool serves = tangent_.constant() && tangent_.factorised() && rate_.isZero(0.0);
   if (!serves) tangent_.forget();
@@ -111,26 +112,25 @@ void System::start_exits(const Eigen::VectorXd& u, double part) {
 
 bool System::switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, const Eigen::VectorXd& target,
                           double part) {
-  if (!exits_.update(u + du, assembly_.internal_force() - target, activity_.held)) return false;
+  if (!exits_.update(u + du, assembly_->internal_force() - target, activity_.held)) return false;
   take_exits(u, part);
   return true;
 }
 
 void System::take_exits(const Eigen::VectorXd& u, double part) {
   exits_.set_rates(u, part, activity_.held, rate_);
-  leave_condensation();
+  renumber();
 }
 
-// Equations for the dofs that are held now, within a stage.
-void System::leave_condensation() {
-  assembly_.enter_stage(activity_, rate_);
+void System::renumber() {
+  assembly_->enter_stage(activity_, rate_);
   tangent_.set_rate(rate_);
   analyse();
   tangent_.forget();
 }
 
 int System::equations() const {
-  return assembly_.equations() + (assembly_.condensation() ? assembly_.condensation()->condensed() : 0);
+  return assembly_->equations() + static_cast<int>(assembly_->eliminated().dofs().size());
 }
 
 void System::release_solver() {
@@ -145,15 +145,14 @@ std::string System::kernels() const {
 double System::smallest_pivot() const {
   if (last_) return last_->smallest_pivot;
   const double own = tangent_.solver().report().smallest_pivot_ratio;
-  if (!assembly_.condensation()) return own;
-  const double inner = assembly_.condensation()->report().smallest_pivot_ratio;
+  const double inner = assembly_->eliminated().smallest_pivot();
   return own < 0.0 || inner < 0.0 ? std::max(own, inner) : std::min(own, inner);
 }
 
 DigitsReport System::digits() const {
   if (last_) return last_->digits;
   if (!tangent_.factorised()) return {};
-  return report_digits(tangent_.solver(), assembly_.equations(), smallest_pivot(), settings_.condition);
+  return report_digits(tangent_.solver(), assembly_->equations(), smallest_pivot(), settings_.condition);
 }
 
 }  // namespace sage

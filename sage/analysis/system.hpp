@@ -21,8 +21,8 @@ class System {
   // Activity, equations and numbering.  K and its factors are kept where they still hold.
   void open_stage(int s);
 
-  // The rest of the stage goes on with all equations.
-  void leave_condensation();
+  // The rest of the stage goes on with equations for all dofs that are not held now: none is eliminated.
+  void renumber();
 
   // Seepage faces and drains.  Before a step from the unknowns u that takes this part of the stage: exits at their limit
   // are held there.
@@ -36,12 +36,12 @@ class System {
   const Scene& scene() const { return scene_; }
   const Activity& activity() const { return activity_; }
   const Eigen::VectorXd& rate() const { return rate_; }  // prescribed displacements over the stage, every dof
-  Assembly& assembly() { return assembly_; }
-  const Assembly& assembly() const { return assembly_; }
+  Assembly& assembly() { return *assembly_; }
+  const Assembly& assembly() const { return *assembly_; }
   Tangent& tangent() { return tangent_; }
   const Tangent& tangent() const { return tangent_; }
 
-  int equations() const;  // condensed ones too
+  int equations() const;  // those of eliminated dofs too
   double smallest_pivot() const;
   DigitsReport digits() const;  // of the factorisation at hand, if there is one
   std::string kernels() const;  // of the solver
@@ -62,7 +62,7 @@ class System {
   const RunSettings& settings_;
   WorkCounters& work_;
   Scene scene_;
-  Assembly assembly_;
+  std::unique_ptr<Assembly> assembly_;
   Activity activity_;
   Exits exits_;
   Eigen::VectorXd rate_;
@@ -75,5 +75,8 @@ class System {
   };
   std::optional<Last> last_;  // what the solver reported before it was released
 };
+
+// A solver that was just made leaves out what the skips allow.
+void set_up_solver(const Skips& skips, LinearSolver& solver);
 
 }  // namespace sage

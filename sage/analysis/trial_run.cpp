@@ -52,7 +52,7 @@ void TrialRun::run_stage(TrialResult& trial) {
   start_.open(report.stage);
   control_.open_stage();
   run_.tangent().forget();
-  if (!run_.assembly().condensation()) run_.assembly().evaluate(run_.state.du, &run_.tangent());
+  if (run_.assembly().eliminated().dofs().empty()) run_.assembly().evaluate(run_.state.du, &run_.tangent());
   trial.equilibrium = control_.take_increment(report);
   if (!trial.equilibrium) return fail(trial);
   report.points = run_.assembly().count_points();

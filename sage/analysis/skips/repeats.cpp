@@ -1,5 +1,7 @@
 #include "sage/analysis/skips/repeats.hpp"
 
+#include "sage/analysis/skips/condensed_step.hpp"
+
 namespace sage {
 
 bool RepeatedStep::begin(StepIteration& step, const Eigen::VectorXd& rate) {
@@ -14,13 +16,15 @@ bool RepeatedStep::try_it(StepIteration& step) const {
   step.form_residual();
   step.start_residual = step.residual;
   step.start_known = true;
-  if (const Condensation* region = step.assembly.condensation())
-    for (const int dof : region->condensed_dofs()) step.du[dof] = 0.0;  // complete() recovers their motion
+  auto* const condensed = dynamic_cast<CondensedStep*>(step.pass.get());
+  for (const int dof : step.assembly.eliminated().dofs())
+    step.du[dof] = 0.0;  // complete() recovers their motion
   if (step.assemble(false) == Outcome::cut_step) return false;
   step.correction.setZero(step.assembly.equations());
   IterationRecord record = step.measure();
   if (!(record.force <= limit_)) return false;
-  if (!step.pass.wait(step.du, step.residual.norm(), limit_)) record = step.measure_whole();
+  if (condensed != nullptr && !condensed->wait(step.du, step.residual.norm(), limit_))
+    record = condensed->measure_whole(step);
   if (!(record.force <= limit_)) return false;
   step.result.iterations.push_back(record);
   step.result.worst = step.measures.worst(step.residual);

@@ -4,10 +4,6 @@
 
 namespace sage {
 
-std::unique_ptr<SteppingPolicy> make_stepping_policy(const Skips& skips) {
-  return std::make_unique<SteppingSkips>(skips);
-}
-
 bool SteppingSkips::contracts(const RunParts& run) const {
   return skips_.contraction && run.stage().method == Method::newton && !run.tangent().constant() &&
          is_large(run.assembly().equations());
@@ -15,7 +11,7 @@ bool SteppingSkips::contracts(const RunParts& run) const {
 
 bool SteppingSkips::predicts(const RunParts& run) const {
   return skips_.prediction && run.stage().method == Method::newton && !run.tangent().linear() &&
-         run.assembly().condensation() == nullptr && run.assembly().dof_map().only_displacement();
+         run.assembly().eliminated().dofs().empty() && run.assembly().dof_map().only_displacement();
 }
 
 bool SteppingSkips::begins_elsewhere(const RunParts& run, double size) const {

@@ -5,8 +5,8 @@
 #include <memory>
 #include <utility>
 
-#include "sage/analysis/four_abreast.hpp"
 #include "sage/analysis/run.hpp"
+#include "sage/analysis/skips/four_abreast.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/builder/build_model.hpp"
 #include "sage/conformance/sample_laws.hpp"

@@ -87,7 +87,7 @@ Specimen::Specimen(Geometry geometry, bool interface) : with_interface(interface
     stage.fixities.push_back({node, {FixityCode::fixed, FixityCode::fixed}, {0, 0}, 0});
   model.stages.push_back(stage);
   scene = analyse_scene(model);
-  assembly = std::make_unique<Assembly>(model, scene, Skips{}, work);
+  assembly = make_assembly(model, scene, Skips{}, work);
   activity = std::make_unique<Activity>(model);
   activity->enter(model.stages[0]);
   assembly->enter_stage(*activity, Eigen::VectorXd::Zero(DofMap(model).dofs()));

@@ -213,7 +213,8 @@ TEST_F(VtuReadBack, KnowsEveryShape) {
     collect_unknowns(model);
     const Scene scene = analyse_scene(model);
     WorkCounters work;
-    Assembly assembly(model, scene, Skips{}, work);
+    const std::unique_ptr<Assembly> owned = make_assembly(model, scene, Skips{}, work);
+    Assembly& assembly = *owned;
     const Activity activity(model);
     const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(DofMap(model).dofs(), 0.0, 1.0);
     assembly.enter_stage(activity, Eigen::VectorXd::Zero(DofMap(model).dofs()));

@@ -1,4 +1,4 @@
-#include "sage/analysis/kept_matrices.hpp"
+#include "sage/analysis/skips/kept_matrices.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "sage/analysis/deferred_states.hpp"
+#include "sage/analysis/skips/deferred_states.hpp"
 
 #include <algorithm>
 #include <optional>

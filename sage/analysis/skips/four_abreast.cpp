@@ -1,4 +1,4 @@
-#include "sage/analysis/four_abreast.hpp"
+#include "sage/analysis/skips/four_abreast.hpp"
 
 #include <algorithm>
 

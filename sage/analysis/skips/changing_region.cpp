@@ -1,10 +1,10 @@
-#include "sage/analysis/changing_region.hpp"
+#include "sage/analysis/skips/changing_region.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
-#include "sage/analysis/kept_matrices.hpp"
+#include "sage/analysis/skips/kept_matrices.hpp"
 #include "sage/analysis/tangent.hpp"
 
 namespace sage {
@@ -16,12 +16,6 @@ constexpr int kUnit = 16 * kAbreast;  // elements that a thread takes at a time
 constexpr int kWorthThreads = 600;
 
 }  // namespace
-
-bool has_matrix_of_step(const GroupData& data) {
-  const ElementTraits& traits = data.group->element->traits();
-  return traits.linear_in_step && has_constant_stiffness(data.law) &&
-         (traits.second_law_size == 0 || has_constant_stiffness(data.second_law));
-}
 
 ChangingRegion::ChangingRegion(std::vector<GroupData>& groups, ElementWork& element, WorkCounters& work)
     : groups_(&groups), element_(&element), work_(&work) {}

@@ -1,4 +1,4 @@
-#include "sage/analysis/constant_region.hpp"
+#include "sage/analysis/skips/constant_region.hpp"
 
 #include <algorithm>
 

@@ -7,16 +7,10 @@
 
 #include <Eigen/Core>
 
+#include "sage/analysis/iterated_step.hpp"
 #include "sage/core/archive.hpp"
 
 namespace sage {
-
-// How far a stage has come: share of it that is behind, and unknowns of every dof at its start and now, those of
-// condensed dofs where they were recovered last.
-struct StageSoFar {
-  double share = 0.0;
-  const Eigen::VectorXd *start = nullptr, *now = nullptr;
-};
 
 class RegionPredictor {
  public:

@@ -15,38 +15,23 @@
 // it is linear: the load path of its border between them does not matter (RegionPredictor).
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
-#include "sage/analysis/group_data.hpp"
-#include "sage/analysis/region_predictor.hpp"
-#include "sage/core/linear_solver.hpp"
-#include "sage/core/solver_extensions.hpp"
+#include "sage/analysis/skips/region_matrix.hpp"
+#include "sage/analysis/skips/region_predictor.hpp"
 
 namespace sage {
 
-// Makes a solver for so many equations that factorises once; symmetric: the matrix is.
-using SolverMaker = std::function<std::unique_ptr<LinearSolver>(int equations, bool symmetric)>;
-
-class Condensation {
+class Condensation final : public EliminatedDofs {
  public:
-  // dofs: all free ones.  keep: one flag per dof, for those that belong to other elements, too.
-  Condensation(const std::vector<GroupData>& groups, const std::vector<int>& dofs,
-               const std::vector<char>& keep, const SolverMaker& make);
+  // matrix: factorised.
+  explicit Condensation(RegionMatrix matrix);
 
-  // The equations, if the iterations of so many increments cost less with it; false: they don't.  symmetric: the whole
-  // matrix is.
-  bool analyse_if_it_pays(int increments, bool symmetric);
-  // K_ll, its factors and S.  Throws SingularMatrix.
-  void factorise();
-
-  const std::vector<int>& kept() const { return kept_; }  // dofs
-  const std::vector<int>& condensed_dofs() const { return condensed_; }
-  int condensed() const { return static_cast<int>(condensed_.size()); }
-  const Eigen::MatrixXd& S() const { return S_; }
-  FactorReport report() const { return solver_->report(); }
-  int repeated_equations() const;
+  const RegionMatrix& matrix() const { return matrix_; }
+  const std::vector<int>& dofs() const override { return matrix_.condensed_dofs(); }
+  const std::vector<char>& nodes() const override { return matrix_.inner_nodes(); }
+  double smallest_pivot() const override { return matrix_.report().smallest_pivot_ratio; }
 
   // Over the whole stage, one entry per dof: the loads that are added, and the displacement of every prescribed dof
   // (others 0).  force_squares: sum over the region's elements of |f_e|^2 now.  Before the first step, or behind
@@ -57,8 +42,7 @@ class Condensation {
   // may leave unbalanced.
   void begin_step(double part, const StageSoFar& so_far, const Eigen::VectorXd& target,
                   const Eigen::VectorXd& f0, double tolerance);
-  // Work of the step's loads on the region while its border is held (twice that of a ramp).
-  double held_work() const { return held_work_; }
+  double held_work() const override { return held_work_; }
   // f += forces of the linear region on the kept dofs: where the step begins (du = 0), and anywhere.
   void add_start_forces(Eigen::VectorXd& f) const;
   void add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) const;
@@ -69,18 +53,11 @@ class Condensation {
   // Force that rounding may then leave unbalanced at a kept dof.
   double rounding(const Eigen::VectorXd& du) const;
   // When the region was recovered last, and what follows from that for the step in hand.
+  RegionPredictor& predictor() { return predictor_; }
   const RegionPredictor& predictor() const { return predictor_; }
-  // The step in hand is committed: by its border alone, or recovered.
-  void accept_border(const Eigen::VectorXd& du) { predictor_.accept_border(kept_, du); }
-  void accept_whole(double force_squares) { predictor_.accept_whole(force_squares); }
   // du, with what the kept dofs have moved since then.
   void add_motion(Eigen::VectorXd& du) const;
-  // One flag per node: an element of the region has it, and it has a dof that is not kept.
-  const std::vector<char>& inner_nodes() const { return inner_nodes_; }
-  // Work of the stage's loads along the step du, whose condensed dofs need not be recovered.
-  double load_work(const Eigen::VectorXd& loads, const Eigen::VectorXd& du) const;
-  // What is known of the stage before the last step was committed, to a checkpoint or back.
-  void exchange(Archive& archive) { predictor_.exchange(archive); }
+  double load_work(const Eigen::VectorXd& loads, const Eigen::VectorXd& du) const override;
   // Largest load that the internal forces f leave unbalanced at condensed dofs.
   double largest_residual(const Eigen::VectorXd& f) const;
   // Corrects du of the condensed dofs for what f leaves there.
@@ -91,48 +68,22 @@ class Condensation {
   double whole_norm(const Eigen::VectorXd& correction);
 
  private:
-  // Vectors of condensed dofs with kept ones behind them, as in BorderSolver.
-  auto inner(Eigen::VectorXd& x) const { return x.head(condensed()); }
-  auto border(Eigen::VectorXd& x) const { return x.tail(static_cast<Eigen::Index>(kept_.size())); }
-  int dof_of(Eigen::Index i) const {
-    return i < condensed() ? condensed_[static_cast<std::size_t>(i)]
-                           : kept_[static_cast<std::size_t>(i - condensed())];
-  }
   void add_border_forces(Eigen::VectorXd& f) const;  // where they have moved by kept_du_
   double eliminate_loads(const Eigen::VectorXd& loads, Eigen::VectorXd& eliminated);
   void look_at_loads(const Eigen::VectorXd& f0, double tolerance);
   void find_kept_motion(const Eigen::VectorXd& du) const;  // kept_du_: from base_
-  void list_inner_nodes();
-  bool reaches_region(const Eigen::VectorXd& motion) const;
-  void eliminate(Eigen::VectorXd& x);
-  void recover(Eigen::VectorXd& x);
-  void find_forces(const Eigen::VectorXd& x, Eigen::Index begin, Eigen::Index end);
 
-  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;  // y = K x of the linear region
-  void solve_for_border();                                            // S, a solution a column
-  void analyse();
-  bool border_pays(int increments, bool symmetric) const;
-  bool solutions_pay(int increments) const;
-
-  const std::vector<GroupData>* groups_;
-  int dofs_;  // of the model
-  std::vector<int> kept_, condensed_;
-  std::unique_ptr<LinearSolver> solver_;
-  BorderSolver* border_solver_ = nullptr;  // the same one, where it keeps the border
-  Eigen::MatrixXd S_;
-  double S_norm_ = 0.0;       // largest sum of |terms| of a row
-  Eigen::VectorXd g_, base_;  // forces at the place base_ of the kept dofs
+  RegionMatrix matrix_;
   RegionPredictor predictor_;
-  std::vector<char> inner_nodes_;
+  Eigen::VectorXd g_, base_;  // forces at the place base_ of the kept dofs
   const Eigen::VectorXd* target_ = nullptr;
-  Eigen::VectorXd stage_load_, stage_;     // of the whole stage: F_l - f0_l - K_lp du_p, and eliminated
-  Eigen::VectorXd stage_forces_;           // K du_p of the whole stage, every dof
-  Eigen::VectorXd loads_, step_;           // of the step, likewise; of loads that from_ has, the border alone
-  Eigen::VectorXd from_;                   // displacements from which those of the step are counted,
-  bool from_has_loads_ = false;            // whether they balance its loads,
-  bool from_is_here_ = false;              // and whether they are those of this step
-  Eigen::VectorXd whole_, solution_;       // work space
-  Eigen::VectorXd all_dofs_, all_forces_;  // work space
+  Eigen::VectorXd stage_load_, stage_;  // of the whole stage: F_l - f0_l - K_lp du_p, and eliminated
+  Eigen::VectorXd stage_forces_;        // K du_p of the whole stage, every dof
+  Eigen::VectorXd loads_, step_;        // of the step, likewise; of loads that from_ has, the border alone
+  Eigen::VectorXd from_;                // displacements from which those of the step are counted,
+  bool from_has_loads_ = false;         // whether they balance its loads,
+  bool from_is_here_ = false;           // and whether they are those of this step
+  Eigen::VectorXd whole_;               // work space
   double stage_work_ = 0.0, held_work_ = 0.0;
   mutable Eigen::VectorXd kept_du_, kept_f_;
 };

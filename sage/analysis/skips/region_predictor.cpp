@@ -1,4 +1,4 @@
-#include "sage/analysis/region_predictor.hpp"
+#include "sage/analysis/skips/region_predictor.hpp"
 
 #include <algorithm>
 #include <cmath>

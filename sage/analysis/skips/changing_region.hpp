@@ -5,16 +5,13 @@
 #include <vector>
 
 #include "sage/analysis/element_work.hpp"
-#include "sage/analysis/four_abreast.hpp"
 #include "sage/analysis/records.hpp"
+#include "sage/analysis/skips/four_abreast.hpp"
 #include "sage/platform/thread_pool.hpp"
 
 namespace sage {
 
 class Tangent;
-
-// Whether the elements of a group have one matrix for each step size.
-bool has_matrix_of_step(const GroupData& data);
 
 class ChangingRegion {
  public:

@@ -1,0 +1,24 @@
+// The skips that a run is made with (no_skips.cpp: none).
+#include "sage/analysis/skips/condensed_assembly.hpp"
+#include "sage/analysis/skips/stepping_skips.hpp"
+#include "sage/analysis/system.hpp"
+#include "sage/core/solver_extensions.hpp"
+
+namespace sage {
+
+std::unique_ptr<Assembly> make_assembly(const Model& model, const Scene& scene, const Skips& skips,
+                                        WorkCounters& work) {
+  if (skips.condensation && !scene.linear && DofMap(model).only_displacement())
+    return std::make_unique<CondensedAssembly>(model, scene, skips, work);
+  return std::make_unique<AssemblyByRegions>(model, scene, skips, work);
+}
+
+std::unique_ptr<SteppingPolicy> make_stepping_policy(const Skips& skips) {
+  return std::make_unique<SteppingSkips>(skips);
+}
+
+void set_up_solver(const Skips& skips, LinearSolver& solver) {
+  if (auto* repeated = dynamic_cast<RepeatedParts*>(&solver)) repeated->use_repeated_parts(skips.twins);
+}
+
+}  // namespace sage
