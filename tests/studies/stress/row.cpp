@@ -52,10 +52,13 @@ std::string Ran::words() const {
   return text + run->failure;
 }
 
-Ran Sweep::run(const std::string& deck, const BuildOptions& options, const RunSettings& settings) const {
+namespace {
+
+template <class Run>
+Ran judged(const Run& run) {
   Ran ran;
   try {
-    ran.run = bench_->run(deck, options, settings);
+    ran.run = run();
     if (ran.run->result.status != RunStatus::failed) return ran;
     ran.refusal = ran.run->failure;
     ran.run.reset();
@@ -65,6 +68,15 @@ Ran Sweep::run(const std::string& deck, const BuildOptions& options, const RunSe
         if (d.severity == severity) ran.refusal += to_string(d) + "\n";
   }
   return ran;
+}
+
+}  // namespace
+
+Ran Sweep::run(const std::string& deck, const BuildOptions& options, const RunSettings& settings) const {
+  return judged([&] { return bench_->run(deck, options, settings); });
+}
+Ran Sweep::run(const ModelInput& input) const {
+  return judged([&] { return bench_->run(build_model(input, catalogue())); });
 }
 
 Trial& Sweep::add(const std::string& label, double parameter) {
@@ -141,7 +153,7 @@ RowResult evaluate(const Row& row, const scenes::Workbench& bench) {
 std::vector<Row> all_rows() {
   std::vector<Row> all;
   for (auto family : {material_rows, collapse_rows, interface_rows, shape_rows, support_rows, invariance_rows,
-                      stage_rows, input_rows, water_rows, structure_rows, clay_rows})
+                      stage_rows, input_rows, water_rows, structure_rows, clay_rows, pore_rows})
     for (Row& row : family()) all.push_back(std::move(row));
   return all;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "sage/builder/model_input.hpp"
 #include "tests/studies/scenes/whole_run.hpp"
 
 namespace sage::stress {
@@ -47,6 +48,7 @@ class Sweep {
 
   // InputError and a run that failed become a refusal; whatever else is thrown ends the row as a failure.
   Ran run(const std::string& deck, const BuildOptions& options = {}, const RunSettings& settings = {}) const;
+  Ran run(const ModelInput& input) const;
   const Catalogue& catalogue() const { return bench_->catalogue(); }
 
   // The run must be complete, its numbers finite, and the error within what is allowed.
@@ -91,6 +93,7 @@ std::vector<Row> input_rows();
 std::vector<Row> water_rows();
 std::vector<Row> structure_rows();
 std::vector<Row> clay_rows();
+std::vector<Row> pore_rows();
 
 struct RowResult {
   std::vector<Trial> trials;
