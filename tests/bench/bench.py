@@ -16,8 +16,10 @@ import csv
 import dataclasses
 import json
 import pathlib
+import re
 import sys
 import tempfile
+import textwrap
 import time
 
 import growth
@@ -90,18 +92,24 @@ def run_parts(bench, names):
     return found
 
 
+def prose(words):
+    """In lines of 100 columns; code in `...` is not broken, and a list item goes on below its text."""
+    whole = re.sub(r"`[^`]*`", lambda code: code.group().replace(" ", "\0"), words)
+    return textwrap.fill(whole, 100, subsequent_indent="  " * words.startswith("- "), break_long_words=False, break_on_hyphens=False).replace("\0", " ")
+
+
 def header(kept, versions):
     text = ["# Benchmarks: run time against error", ""]
     text += ["Written by `scripts/bench` (`tests/bench/bench.py`); every number comes from there.", ""]
-    text += ["Whole processes; programs take turns, and ratios are between medians of one command. Only ratios carry over to other machines. What bounds them: `docs/theory/speed.md`.", ""]
+    text += [prose("Times are those of whole processes. Programs run in turn, and ratios are between medians of one command. Only ratios apply to other machines. What bounds them: `docs/theory/speed.md`."), ""]
     text += [f"- Machine: {name}" for name in sorted({table["machine"] for table in kept.values()})]
     speeds = [table["dgemm"] for table in kept.values() if table["dgemm"]]
     if speeds:
         between = f"{min(speeds):.0f}" + (f" to {max(speeds):.0f}" if max(speeds) > 1.02 * min(speeds) else "")
-        text.append(f"- DGEMM of numpy with OpenBLAS on the tables' threads, matrices of 1500 x 1500: {between} GF/s")
+        text.append(prose(f"- DGEMM of numpy with OpenBLAS on the tables' threads, matrices of 1500 x 1500: {between} GF/s"))
     for name in ("CalculiX", "FreeFEM", "dolfinx"):
         text.append(f"- {name}: {versions[name] if name in versions else 'not there, left out'}")
-    text.append("- CalculiX has no Tresca law: it computes the strip with von Mises, which has the same collapse load in plane strain, on the coarsest mesh only (longer than sagefe on all of them).")
+    text.append(prose("- CalculiX has no Tresca law. It computes the strip with von Mises, which has the same collapse load in plane strain, on the coarsest mesh only (longer than sagefe on all of them)."))
     text += ["- FreeFEM has no law of plasticity: no footings.", ""]
     return text
 
@@ -112,11 +120,11 @@ def page(kept, versions):
         if key not in kept:
             continue
         table = kept[key]
-        text += [f"## {table['title']}", "", table["note"], "", f"Options: {table['options']}", ""]
+        text += [f"## {table['title']}", "", prose(table["note"]), "", prose(f"Options: {table['options']}"), ""]
         text += [measure.markdown(table["head"], table["rows"])]
         text += [f"![{title}](benchmarks/{name})" for title, name in table["charts"]] + [""] * bool(table["charts"])
         if table["notes"]:
-            text += ["Not computed:", "", *(f"- {note}" for note in table["notes"]), ""]
+            text += ["Not computed:", "", *(prose(f"- {note}") for note in table["notes"]), ""]
     return "\n".join(text).rstrip() + "\n"
 
 

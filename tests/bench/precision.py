@@ -167,8 +167,8 @@ def equal_error(points):
                     row += ["-", "-"]
             rows.append(row)
     note = (
-        "The fastest run of each program within the error, wall time of whole processes. Every program has uniform meshes and such as get finer towards the singular corners: "
-        "sagefe in layers, each 0.15 times the size of the one before; the others as the third power of the place (CalculiX not for Cook's membrane; none for footings, whose mesh is graded as it is)."
+        "The fastest run of each program within the error, wall time of whole processes. Every program has uniform meshes and meshes graded towards the singular corners. "
+        "The meshes of sagefe have layers, each 0.15 times the size of the one before. Those of the others vary as the third power of the position (CalculiX not for Cook's membrane; none for footings, whose mesh is graded already)."
     )
     head = ["scene", "error <=", "sagefe ms", "with", "CalculiX ms", "ratio", "FreeFEM ms", "ratio"]
     return Table("The same error", note, "`sagefe run --element ... [--formulation ...] [--grade auto:LAYERS:0.15] --threads N`.", head, rows)

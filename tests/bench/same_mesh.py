@@ -83,7 +83,7 @@ def linear(bench):
     head += ["fastest whole process", "processor ratio", "wall ratio", "dolfinx, mesh to answer: processor ratio", "without listing", "exponent of sagefe"]
     note = (
         "Quarter of an elastic specimen between pinned ends, L/D = 2, nu = .25, n x 2n quad4 with full integration. Milliseconds, wall / processor. "
-        "Whole processes, the listing of sagefe included; dolfinx finds its forms compiled. Most of its process is the start of Python and imports: `mesh to answer` is what it takes within the process after them, "
+        "Whole processes, the listing of sagefe included. The forms of dolfinx are compiled before. Most of its process is the start of Python and imports: `mesh to answer` is what it takes within the process after them, "
         "which the last ratios set against all of sagefe's process, start, deck and files included. MUMPS in its symmetric mode, with METIS. dolfinx has the same elements and points: its ratio agrees to 1e-7, or the bench fails. "
         "FreeFEM cuts each cell in two triangles. Exponent: of the processor time over unknowns, since the line above."
     )
@@ -121,7 +121,7 @@ def plastic(bench):
     head = ["n", "unknowns", "ratio at 15 %", "sagefe", "iterations", "dolfinx", "iterations", "ratios differ by", "processor ratio", "wall ratio", "the same by iteration", "exponent of sagefe"]
     note = (
         "The specimen above with the Drucker-Prager law of `dp_285` (phi = 36.87, c = 0, flow without volume change, nu = .495) at a cell pressure of 50 psi, to 15 % in "
-        f"{specimen.STEPS} increments. Milliseconds, wall / processor. dolfinx has the same law, return and consistent tangent, in kernels compiled for this processor; its ratio agrees to 1e-6, or the bench fails. "
-        "sagefe: whole process with listing; dolfinx: as above, with MUMPS or PETSc's own LU, whichever is the faster. Both begin an increment with the change of the one before; sagefe's iterations count corrections with kept factors."
+        f"{specimen.STEPS} increments. Milliseconds, wall / processor. The program dolfinx has the same law, return and consistent tangent, in kernels compiled for this processor. Its ratio agrees to 1e-6, or the bench fails. "
+        "The time of sagefe is that of the whole process with listing. The time of dolfinx is measured as above, with MUMPS or PETSc's own LU, whichever is faster. Both begin an increment with the change of the one before; sagefe's iterations count corrections with kept factors."
     )
     return {"plastic": Table("The same mesh, Drucker-Prager", note, "`sagefe run --threads N`.", head, rows)}

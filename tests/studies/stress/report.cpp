@@ -41,12 +41,12 @@ std::string verdict(bool ok) {
 
 void add_row(Page& page, const Row& row, const RowResult& result) {
   page.heading(3, row.name);
-  page.line(row.title + ". Reference: " + row.reference);
+  page.prose(row.title + ". Reference: " + row.reference);
   page.table({"trial", "expected", "outcome", "error", "digits lost", "verdict"});
   for (const Trial& t : result.trials)
     page.row({cell(t.label), cell(t.expected), cell(t.outcome), small(t.error), digits(t.digits_lost()),
               verdict(t.ok)});
-  if (!result.thrown.empty()) page.paragraph("FAIL, threw: " + result.thrown);
+  if (!result.thrown.empty()) page.prose("FAIL, threw: " + result.thrown);
 }
 
 }  // namespace
@@ -133,16 +133,15 @@ std::string to_markdown(const std::vector<Row>& rows, const std::vector<RowResul
   const auto failed = std::count_if(results.begin(), results.end(), [](const RowResult& r) { return !r.ok(); });
   Page page("The stability stress test");
   page.note("Written by `sagefe stress --write`: rerun it instead of editing.");
-  page.paragraph(
-      "Every row sweeps one thing towards the edge of what makes sense. Each trial must be right to a stated "
-      "error "
-      "or end with a named\ndiagnostic; a number that is not finite, any other exception, or an answer that is "
-      "wrong "
-      "without a word is a FAIL.\nDigits lost = log10(error / 1.1e-16), of 16. Errors are relative to the "
-      "reference "
-      "that the row names.");
-  page.paragraph("Not tested, because the program does not have it: consolidation (small time steps).");
-  page.paragraph(fmt::format("{} rows, {} failed.", rows.size(), failed));
+  page.prose(
+      "Every row sweeps one parameter towards its limits. Each trial must be right to a stated error or end "
+      "with a "
+      "named diagnostic. A number that is not finite, any other exception, and a wrong answer without a "
+      "diagnostic "
+      "are a FAIL. Digits lost = log10(error / 1.1e-16), of 16. Errors are relative to the reference of the "
+      "row.");
+  page.prose("Not tested: small time steps of consolidation.");
+  page.prose(fmt::format("{} rows, {} failed.", rows.size(), failed));
   page.table({"row", "what is swept", "trials", "digits lost", "verdict"});
   for (std::size_t i = 0; i < rows.size(); ++i)
     page.row({fmt::format("[{0}](#{0})", rows[i].name), rows[i].title, std::to_string(results[i].trials.size()),

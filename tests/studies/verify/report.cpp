@@ -117,8 +117,8 @@ Plot plot_of(const Figure& figure) {
 void add_case(Page& page, const CaseResult& outcome, const std::string& picture_folder) {
   const Case& c = *outcome.of;
   page.heading(3, c.name + ": " + c.title);
-  page.paragraph(fmt::format("Reference: {} ({}). Gate: {}. {:.2g} s, **{}**.", c.source, name_of(c.grade),
-                             c.gate, outcome.seconds, outcome.pass() ? "pass" : "FAIL"));
+  page.prose(fmt::format("Reference: {} ({}). Gate: {}. {:.2g} s, **{}**.", c.source, name_of(c.grade), c.gate,
+                         outcome.seconds, outcome.pass() ? "pass" : "FAIL"));
   const bool orders = std::any_of(outcome.rows.begin(), outcome.rows.end(),
                                   [](const Row& row) { return !std::isnan(row.order); });
   std::vector<std::string> head{"geometry", "what", "reference", "computed", "error", "gate", "result"};
@@ -147,15 +147,24 @@ void add_overview(Page& page, const std::vector<Chapter>& chapters) {
 }
 
 constexpr const char* kPreface[] = {
-    R"(Every case builds a deck, reads it with the program's own reader, runs it and compares. A row passes while its error is within the gate,
-and an order of convergence while it is at least the theory's less 0.15, unless the case says otherwise. Errors marked `rel` are computed/reference - 1, the others
-computed - reference. A failing case stays in the table as failing, and `sagefe verify` then ends with exit code 3.)",
-    R"(**Signs and units.** As outside the program: pressures and bearing loads positive in compression; stress components that are compared with
-formulas (sigma_r, sigma_z, ...) tension positive, and marked so; displacements along the axes. Forces are per unit thickness in plane strain and for the full circle in
-axisymmetry. Numbers are in consistent units, mostly E = p = a = 1; angles in degrees.)",
-    R"(**References.** *closed form*: exact, the formula is in the case's source file. *converged computation*: an independent hp finite-element,
-root-finding or ODE computation, good to the digits shown. *published value*: printed in the named source. *two ways*: one model computed in two ways
-that must agree.)"};
+    "Every case builds a deck, reads it with the program's own reader, runs it and compares. A row passes "
+    "while its "
+    "error is within the gate, and an order of convergence while it is at least the theory's less 0.15, unless "
+    "the "
+    "case says otherwise. Errors marked `rel` are computed/reference - 1, the others computed - reference. A "
+    "failing "
+    "case stays in the table as failing, and `sagefe verify` then ends with exit code 3.",
+    "**Signs and units.** As outside the program, pressures and bearing loads are positive in compression. "
+    "Stress "
+    "components that are compared with formulas (sigma_r, sigma_z, ...) are tension positive, and marked so. "
+    "Displacements are along the axes. Forces are per unit thickness in plane strain and for the full circle "
+    "in "
+    "axisymmetry. Numbers are in consistent units, mostly E = p = a = 1; angles are in degrees.",
+    "**References.** *closed form*: exact, with the formula in the source file of the case. *converged "
+    "computation*: "
+    "an independent hp finite-element, root-finding or ODE computation, good to the digits shown. *published "
+    "value*: "
+    "printed in the named source. *two ways*: one model computed in two ways that must agree."};
 
 }  // namespace
 
@@ -214,8 +223,8 @@ std::string markdown_text(const std::vector<Chapter>& chapters, const std::strin
     }
   Page page("Verification book");
   page.note("Written by `sagefe verify --write`: run it again, do not edit.");
-  for (const char* words : kPreface) page.paragraph(words);
-  page.paragraph(fmt::format("{} cases with {} rows, {} failing; {:.0f} s.", cases, rows, failing, seconds));
+  for (const char* words : kPreface) page.prose(words);
+  page.prose(fmt::format("{} cases with {} rows, {} failing; {:.0f} s.", cases, rows, failing, seconds));
   add_overview(page, chapters);
   bool first = true;
   for (const Chapter& chapter : chapters) {

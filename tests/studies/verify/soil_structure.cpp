@@ -185,10 +185,8 @@ Section soil_structure_cases() {
   return {
       "Soil and structures",
       {
-          {"soil_structure.braced_excavation",
-           "cut between walls with struts, and round shaft with rings, in five stages: earth against struts "
-           "and hoops",
-           balance, Grade::twofold, rounding, braced},
+          {"soil_structure.braced_excavation", "cut with struts and shaft with rings, five stages", balance,
+           Grade::twofold, rounding, braced},
           {"soil_structure.sheet_piles", "cantilever and anchored sheet pile: earth against earth and anchor",
            balance + "; Rankine 1857", Grade::twofold, rounding + "; Rankine's limit 5 %, nodes 1 m apart",
            sheet_piles},
