@@ -8,7 +8,11 @@ namespace sage {
 
 namespace {
 
-double dissipation_of(const Mesh& mesh, const GroupData& data) {
+struct Work {
+  double committed = 0.0, tried = 0.0;  // of the stresses before the step and at its end
+};
+
+Work work_of(const Mesh& mesh, const GroupData& data) {
   const Group& group = *data.group;
   const ElementTraits& traits = group.element->traits();
   const auto points = static_cast<std::size_t>(traits.points), size = static_cast<std::size_t>(traits.law_size);
@@ -16,7 +20,7 @@ double dissipation_of(const Mesh& mesh, const GroupData& data) {
   const PointStates &from = data.state.committed, &to = data.state.trial;
   std::vector<double> geometry(static_cast<std::size_t>(traits.geometry_size()));
   Eigen::Matrix2Xd x;
-  double sum = 0.0;
+  Work work;
   for (int e = 0; e < group.elements(); ++e) {
     const std::size_t first = static_cast<std::size_t>(e) * points;
     const auto some = to.status.begin() + static_cast<std::ptrdiff_t>(first);
@@ -25,11 +29,19 @@ double dissipation_of(const Mesh& mesh, const GroupData& data) {
     group.element->geometry(x, geometry);
     for (std::size_t p = 0; p < points; ++p) {
       if (!is_plastic(to.status[first + p])) continue;
-      for (std::size_t i = (first + p) * size; i < (first + p + 1) * size; ++i)
-        sum += geometry[p * stride] * to.sigma[i] * (to.eps[i] - from.eps[i]);
+      for (std::size_t i = (first + p) * size; i < (first + p + 1) * size; ++i) {
+        const double deps = geometry[p * stride] * (to.eps[i] - from.eps[i]);
+        work.committed += from.sigma[i] * deps;
+        work.tried += to.sigma[i] * deps;
+      }
     }
   }
-  return sum;
+  return work;
+}
+
+double dissipation_of(const Mesh& mesh, const GroupData& data) {
+  const Work work = work_of(mesh, data);
+  return data.group->structure() || !(work.committed > 0.0) ? work.tried : work.committed;
 }
 
 }  // namespace

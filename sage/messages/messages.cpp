@@ -506,9 +506,10 @@ constexpr MessageEntry kMessages[] = {
      "blocks."},
     {"S260", "there is nothing to divide for a safety factor",
      "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
-     "chosen group has a law whose entry names a strength. Elastic laws have none; interfaces and structures "
-     "are divided on request only. A law of your own names its strengths by the roles of its parameters.",
-     "Correct --stage or --group, add --interfaces or --structures, or give the soil a law with strength "
+     "chosen group has a law whose entry names a strength. Elastic laws have none; joints, anchors and walls "
+     "are divided where --reduce names them only. A law of your own names its strengths by the roles of its "
+     "parameters.",
+     "Correct --stage or --group, name more parts in --reduce, or give the soil a law with strength "
      "(sagefe list materials)."},
     {"S261", "Gmsh can't mesh an area",
      "Gmsh reported an error, left a part of the area empty, or put elements across a line. Lines that almost "

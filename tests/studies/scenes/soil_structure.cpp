@@ -14,7 +14,9 @@ namespace sage::scenes {
 namespace {
 
 constexpr int kQuad4 = 1, kQuad8 = 2, kElastic = 1, kMohrCoulomb = 4, kCloughDuncan = 22, kJoint = 23,
-              kOneWay = 32;
+              kOneWay = 32, kPlasticBar = 33, kPlasticSection = 37;
+
+constexpr int kBBar = 2, kEnhanced = 5;  // formulations of quad4
 
 // Numbers of elements, one after the other.
 struct Numbers {
@@ -86,9 +88,14 @@ DeckWriter WallInGround::deck(int last_stage) const {
   deck.node(wall(toe), half_width, -toe);
   deck.node_row(wall(0), stride(), half_width, 0.0);
 
-  deck.material(1, kMohrCoulomb, {E, 0.3, cohesion, friction, 0.0}, weight, "ground");
-  deck.material(2, kPlate, {3e7, 0.2, thickness, goes_around ? 1.0 : 0.0}, 0.0,
-                goes_around ? "wall" : "wall of strips");
+  deck.material(1, kMohrCoulomb, {E, 0.3, cohesion, friction, dilation}, weight, "ground");
+  const double E_wall = 3e7, EA = E_wall * thickness;
+  if (moment_strength > 0.0)
+    deck.material(2, kPlasticSection, {EA, EA * thickness * thickness / 12.0, 0.0, moment_strength}, 0.0,
+                  "wall that yields");
+  else
+    deck.material(2, kPlate, {E_wall, 0.2, thickness, goes_around ? 1.0 : 0.0}, 0.0,
+                  goes_around ? "wall" : "wall of strips");
   deck.material(3, kJoint, {1e5, 1e6, adhesion, wall_friction}, 0.0, "wall and ground");
   const bool rings = geometry == 2;
   std::vector<double> tie{strut_stiffness, spacing};
@@ -98,7 +105,10 @@ DeckWriter WallInGround::deck(int last_stage) const {
   };
   if (some(false)) deck.material(4, kAxial, tie, 0.0, rings ? "rings" : "struts");
   if (tip_spring > 0.0) deck.material(9, kAxial, {tip_spring, 1.0}, 0.0, "spring of length 1");
-  if (some(true)) deck.material(5, kOneWay, {strut_stiffness, 1.0, spacing}, 0.0, "anchors");
+  if (some(true) && anchor_strength > 0.0)
+    deck.material(5, kPlasticBar, {strut_stiffness, anchor_strength, 0.0, spacing}, 0.0, "anchors that yield");
+  else if (some(true))
+    deck.material(5, kOneWay, {strut_stiffness, 1.0, spacing}, 0.0, "anchors");
 
   Numbers numbers;
   // Elements of rows between two depths, below first.
@@ -123,10 +133,11 @@ DeckWriter WallInGround::deck(int last_stage) const {
     deck.elements_block(numbers(to - from), group, {w, w + stride(), n + stride(), n}, 1, to - from, 1,
                         stride());
   };
-  deck.group(kSoil, kQuad4, 2, 1, "ground");
+  const int quad4 = dilation > 0.0 ? kEnhanced : kBBar;
+  deck.group(kSoil, kQuad4, quad4, 1, "ground");
   int above = 0;
   const int lifts = static_cast<int>(levels.size());
-  for (int k = 0; k < lifts; ++k) deck.group(2 + k, kQuad4, 2, 1, fmt::format("lift {}", k + 1));
+  for (int k = 0; k < lifts; ++k) deck.group(2 + k, kQuad4, quad4, 1, fmt::format("lift {}", k + 1));
   deck.group(kWall, kBeam2, 1, 2, "wall");
   deck.group(kInside, kInterface4, 1, 3, "inner face");
   for (int k = 0; k < lifts; ++k)

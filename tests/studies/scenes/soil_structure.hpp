@@ -19,7 +19,8 @@ struct WallInGround {
   double half_width = 6.0, far = 20.0;  // of the cut; from the wall to the side
   int depth = 16, toe = 10;             // of the ground, of the wall
   std::vector<int> levels{2, 4, 6};     // depth after each lift
-  double cohesion = 5.0, friction = 30.0, adhesion = 2.0, wall_friction = 20.0;
+  double cohesion = 5.0, friction = 30.0, dilation = 0.0, adhesion = 2.0, wall_friction = 20.0;
+  double moment_strength = 0.0;         // M_p of the wall, of the stiffness of strips; 0 = elastic
   double E = 30000.0, thickness = 0.3;  // of the soil; of the wall
   bool goes_around =
       true;  // a plate; else strips side by side, without hoop force: of a shaft the rings then carry all
@@ -34,6 +35,7 @@ struct WallInGround {
     bool anchor = false;     // outside, tension alone, to held ground
   };
   double strut_stiffness = 6e5, spacing = 3.0;  // EA of one
+  double anchor_strength = 0.0;                 // of one anchor; 0 = elastic
   std::vector<Strut> struts;
 
   // Numbers of groups.

@@ -3,11 +3,13 @@
 
 #include <cmath>
 
+#include "materials/axial.hpp"
 #include "materials/hoek_brown.hpp"
 #include "materials/hyperbolic_mohr_coulomb.hpp"
 #include "materials/linear_elastic.hpp"
 #include "materials/mohr_coulomb.hpp"
 #include "materials/mohr_coulomb_softening.hpp"
+#include "materials/section.hpp"
 #include "sage/model/strength.hpp"
 
 namespace sage {
@@ -67,6 +69,17 @@ TEST(ReduceStrength, CurvedEnvelopeAtTwoPressures) {
   EXPECT_NEAR(p[static_cast<std::size_t>(c)], 5.0, 1e-12);
   EXPECT_NEAR(p[static_cast<std::size_t>(phi)], divided(40.0, 1.6), 1e-12);
   EXPECT_NEAR(p[static_cast<std::size_t>(phi)] - p[static_cast<std::size_t>(loss)], divided(34.0, 1.6), 1e-12);
+}
+
+// Force and moment / F; an axial strength of 0 is none.
+TEST(ReduceStrength, BarsAndSections) {
+  std::vector<double> bar{1e5, 60.0, 30.0, 2.5}, section{1e6, 1e4, 0.0, 150.0};
+  EXPECT_TRUE(reduce_strength(bar, axial_plastic_entry(), {1.5, DilationRule::reduced}));
+  EXPECT_EQ(bar, (std::vector<double>{1e5, 40.0, 20.0, 2.5}));
+  EXPECT_TRUE(reduce_strength(section, section_plastic_entry(), {1.5, DilationRule::reduced}));
+  EXPECT_EQ(section, (std::vector<double>{1e6, 1e4, 0.0, 100.0}));
+  EXPECT_EQ(part_of(axial_plastic_entry()), ModelPart::anchors);
+  EXPECT_EQ(part_of(section_plastic_entry()), ModelPart::walls);
 }
 
 TEST(ReduceStrength, LawsThatNameNoStrengthStay) {
