@@ -274,8 +274,8 @@ int run_bounds(BoundsOptions options, const Catalogue& catalogue) {
       throw InputError("S906", {options.deck, 0, 0, 0}, "warnings count as errors (--strict)");
     const int stage = stage_of(options, model);
     const Eigen::VectorXd heads = heads_before(options, model, catalogue, stage, task);
-    bounds::Ground ground =
-        bounds::make_ground(model, first_live(options, stage), stage, heads.size() > 0 ? &heads : nullptr);
+    bounds::Ground ground = bounds::make_ground(model, first_live(options, stage), stage,
+                                                heads.size() > 0 ? &heads : nullptr, options.search.elements);
     const bounds::Quantity quantity = quantity_of(options, model, stage, ground);
     if (quantity == bounds::Quantity::strength)
       ground.domain = bounds::reduced(ground.domain, 1.0 / ground.stated_factor);

@@ -275,15 +275,28 @@ Solved bound_factor(const Domain& domain, const Edges& edges, Side side, const O
 
 // ---- refining
 
-// s z by triangle: where stresses off yield meet strain rates, the bounds part.
-std::vector<double> gap_by_triangle(const Domain& domain, const Solved& lower, const Solved& upper) {
-  std::vector<double> gap(domain.triangles.size(), 0.0);
-  for (std::size_t t = 0; t < gap.size(); ++t)
+// s z by triangle, of the slack of one field and the strain rates of the other; their sum is 1.
+std::vector<double> meeting(const Solved& slack, const Solved& rates, const std::vector<char>& stress_free,
+                            std::size_t triangles) {
+  std::vector<double> part(triangles, 0.0);
+  for (std::size_t t = 0; t < triangles; ++t)
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<Eigen::Index>(3 * t + i);
-      if (lower.program.stress_free[3 * t + i]) continue;
-      gap[t] += std::max(0.0, lower.solution.s.col(k).dot(upper.solution.z.col(k)));
+      if (stress_free[3 * t + i]) continue;
+      part[t] += std::max(0.0, slack.solution.s.col(k).dot(rates.solution.z.col(k)));
     }
+  const double sum = std::accumulate(part.begin(), part.end(), 0.0);
+  for (double& one : part) one /= std::max(sum, 1e-300);
+  return part;
+}
+
+// Where stresses off yield meet strain rates, the bounds part.  Each program has both: where the lower one fails at a
+// place that the upper field leaves at rest, its own rates meet the slack of the upper one.
+std::vector<double> gap_by_triangle(const Domain& domain, const Solved& lower, const Solved& upper) {
+  const std::vector<char>& stress_free = lower.program.stress_free;
+  std::vector<double> gap = meeting(lower, upper, stress_free, domain.triangles.size());
+  const std::vector<double> other = meeting(upper, lower, stress_free, domain.triangles.size());
+  for (std::size_t t = 0; t < gap.size(); ++t) gap[t] = 0.5 * (gap[t] + other[t]);
   return gap;
 }
 

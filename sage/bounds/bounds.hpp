@@ -44,7 +44,7 @@ struct Bounds {
   Edges edges;
   Eigen::Matrix3Xd stress;    // effective [xx yy xy], tension +, by triangle and corner; empty = none
   Eigen::Matrix2Xd velocity;  // of nodes, then of the middles of edges; largest 1; empty = none
-  std::vector<double> gap;    // by triangle: its part of the distance between the bounds; empty = none
+  std::vector<double> gap;    // by triangle: its part of the distance between the bounds, sum 1; empty = none
 
   // Relative to the mean of both; nothing where one is missing.
   std::optional<double> relative_gap() const;

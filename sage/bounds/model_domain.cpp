@@ -35,9 +35,21 @@ struct Side {
 
 class GroundMaker {
  public:
-  GroundMaker(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns)
+  GroundMaker(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns, int room)
       : m_(model), first_live_(first_live), stage_(stage), activity_(model), unknowns_(unknowns) {
     for (int s = 0; s <= stage; ++s) activity_.enter(m_.stages[at(s)]);
+    halves_ = room > 0 && wants_halves(room);
+  }
+  // Halves that are bisected meet in nodes whose four edges lie nearly on two lines.  Without friction the flow rule, no
+  // change of volume, then has equations that nearly depend on others.
+  bool wants_halves(int room) const {
+    int elements = 0;
+    for (std::size_t g = 0; g < m_.groups.size(); ++g) {
+      if (!is_ground(g)) continue;
+      elements += m_.groups[g].elements();
+      if (!(strength_of(m_.material_of(m_.groups[g])).friction > 0.0)) return false;
+    }
+    return 4 * elements > 3 * room / 4;
   }
   bool wants_heads() const {
     for (std::size_t g = 0; g < m_.groups.size(); ++g) {
@@ -178,7 +190,7 @@ class GroundMaker {
     if (ground_.domain.triangles.empty())
       reject("S574", {}, fmt::format("stage {} has no soil", m_.stages[at(stage_)].number));
   }
-  // A quadrilateral becomes four triangles that meet where its diagonals cross.
+  // A quadrilateral becomes four triangles that meet where its diagonals cross, or two at its shorter diagonal.
   void divide(const std::vector<int>& corner, int soil) {
     Domain& d = ground_.domain;
     const int origin = static_cast<int>(ground_.elements.size());
@@ -188,12 +200,28 @@ class GroundMaker {
     }
     const Vector2 a = d.x[at(corner[0])], b = d.x[at(corner[1])], p = d.x[at(corner[2])] - a,
                   q = d.x[at(corner[3])] - b, r = b - a;
+    if (halves_ && convex(corner)) {
+      const std::size_t i = p.squaredNorm() <= q.squaredNorm() ? 0 : 1;
+      d.triangles.push_back({{corner[i], corner[i + 1], corner[(i + 2) % 4]}, soil, origin});
+      d.triangles.push_back({{corner[i], corner[(i + 2) % 4], corner[(i + 3) % 4]}, soil, origin});
+      return;
+    }
     const double turn = p.x() * q.y() - p.y() * q.x();
     const double s = turn != 0.0 ? (r.x() * q.y() - r.y() * q.x()) / turn : 0.5;
     const int middle = static_cast<int>(d.x.size());
     d.x.emplace_back(a + s * p);
     for (std::size_t i = 0; i < 4; ++i)
       d.triangles.push_back({{corner[i], corner[(i + 1) % 4], middle}, soil, origin});
+  }
+
+  bool convex(const std::vector<int>& corner) const {
+    const std::vector<Vector2>& x = ground_.domain.x;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vector2 a = x[at(corner[(i + 1) % 4])] - x[at(corner[i])],
+                    b = x[at(corner[(i + 2) % 4])] - x[at(corner[(i + 1) % 4])];
+      if (a.x() * b.y() - a.y() * b.x() <= 1e-6 * a.norm() * b.norm()) return false;
+    }
+    return true;
   }
 
   void add_joints() {
@@ -484,6 +512,7 @@ class GroundMaker {
   int first_live_, stage_;
   Activity activity_;
   const Eigen::VectorXd* unknowns_;
+  bool halves_ = false;
   Ground ground_;
   std::vector<int> soil_of_;
   std::map<int, int> node_;
@@ -494,12 +523,12 @@ class GroundMaker {
 
 }  // namespace
 
-Ground make_ground(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns) {
-  return GroundMaker(model, first_live, stage, unknowns).make();
+Ground make_ground(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns, int room) {
+  return GroundMaker(model, first_live, stage, unknowns, room).make();
 }
 
 bool wants_heads(const Model& model, int stage) {
-  return GroundMaker(model, stage, stage, nullptr).wants_heads();
+  return GroundMaker(model, stage, stage, nullptr, 0).wants_heads();
 }
 
 }  // namespace sage::bounds

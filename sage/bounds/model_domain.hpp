@@ -22,8 +22,11 @@ struct Ground {
 // live, what earlier ones add is fixed.  The model must outlive the result.
 // unknowns: of a run at the start of the stage (one entry a dof), which the pore pressures of water cards that take heads
 // of flow elements come from; nullptr = not known, and such cards are rejected.
+// room: triangles up to which the mesh will be refined.  A quadrilateral becomes four, or two where four leave no room;
+// 0 = always four.
 // Throws InputError for what has no bounds: axisymmetry, structures, laws, loads and water that limit analysis lacks.
-Ground make_ground(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns = nullptr);
+Ground make_ground(const Model& model, int first_live, int stage, const Eigen::VectorXd* unknowns = nullptr,
+                   int room = 0);
 // Some soil that is active in the stage takes its pore pressure from heads of flow elements.
 bool wants_heads(const Model& model, int stage);
 
