@@ -10,6 +10,7 @@
 #include "sage/model/activity.hpp"
 #include "sage/model/law_table.hpp"
 #include "sage/model/undrained.hpp"
+#include "sage/model/water.hpp"
 
 namespace sage::builder {
 
@@ -64,6 +65,12 @@ std::vector<Phase> phases_of(const Model& model, int g) {
     }
     if (changes) phases.push_back(now);
   }
+  if (now.held) {  // for a stage that a safety factor puts behind the last one
+    now.stage = static_cast<int>(model.stages.size());
+    now.held = false;
+    now.anew = true;
+    phases.push_back(now);
+  }
   return phases;
 }
 
@@ -72,9 +79,45 @@ bool is_plain(const std::vector<Phase>& phases) {
          (phases.size() == 1 && phases[0].fields.empty() && !phases[0].held && !phases[0].anew);
 }
 
-// What a field adds to its parameter at a level.
-double growth_at(const InitialStress& field, double y) {
-  return field.value[2] * std::max(0.0, field.value[1] - y);
+// Effective vertical stress (compression +) of the ground before anything is done to it: as initial cards state it, or else
+// the weight of what is active in the first stage above a place, less the pore pressure of that stage.
+class GroundStress {
+ public:
+  GroundStress(const Model& model, int group) : group_(group) {
+    Activity activity(model);
+    activity.enter(model.stages.front());
+    const std::vector<InitialStress>* const lists[] = {&model.initials, &model.stages.front().initials};
+    for (const std::vector<InitialStress>* list : lists)
+      for (const InitialStress& initial : *list)
+        if (initial.group == group &&
+            (initial.kind == InitialKind::uniform || initial.kind == InitialKind::geostatic))
+          stated_ = &initial;
+    if (stated_ == nullptr) above_.emplace(model, activity.group);
+    if (!model.water.empty()) water_.emplace(model, 0, activity.group, activity.dof_map, nullptr);
+  }
+
+  double at(int element, int point, const Vector2& place) const {
+    if (stated_ != nullptr && stated_->kind == InitialKind::uniform) return stated_->value[1];
+    const double u = water_ ? water_->at_point(static_cast<std::size_t>(group_), element, point) : 0.0;
+    if (stated_ == nullptr) return above_->above(place).stress - u;
+    const auto& v = stated_->value;
+    return v[3] + v[1] * (v[0] - place.y()) - u;
+  }
+
+ private:
+  int group_;
+  const InitialStress* stated_ = nullptr;
+  std::optional<Overburden> above_;
+  std::optional<PorePressure> water_;
+};
+
+// What a field adds to its parameter at a level and a stress.
+double growth_at(const InitialStress& field, double y, double stress) {
+  return field.value[2] * std::max(0.0, field.value[1] - y) + field.value[3] * std::max(0.0, stress);
+}
+
+bool wants_stress(const InitialStress* field) {
+  return field->value[3] != 0.0;
 }
 
 // The laws of a group's twin material, and which of them its points have.
@@ -90,14 +133,18 @@ class TableMaker {
       choice.of_point = {place(material, material.parameters, phase.held)};
       return choice;
     }
+    std::optional<GroundStress> ground;
+    if (std::ranges::any_of(phase.fields, wants_stress))
+      ground.emplace(model_, static_cast<int>(&group_ - model_.groups.data()));
     Eigen::Matrix2Xd x;
     for (int e = 0; e < group_.elements(); ++e) {
       element_coordinates(model_.mesh, group_, e, x);
       for (int p = 0; p < group_.element->traits().points; ++p) {
         std::vector<double> parameters = material.parameters;
-        const double y = group_.element->position(x, p).y();
+        const Vector2 at = group_.element->position(x, p);
+        const double stress = ground ? ground->at(e, p, at) : 0.0;
         for (const InitialStress* field : phase.fields)
-          parameters[static_cast<std::size_t>(field->value[0]) - 1] += growth_at(*field, y);
+          parameters[static_cast<std::size_t>(field->value[0]) - 1] += growth_at(*field, at.y(), stress);
         choice.of_point.push_back(place(material, parameters, phase.held));
       }
     }
@@ -277,10 +324,13 @@ bool read_parameter(Builder& b, const CardView& card, const Group& group, Initia
     return refuse(
         b, card.where(named ? "parameter" : "v1"),
         group_name(group) + ": " + material.law_name + " has no parameter " + name + "; known: " + all);
+  if (initial.value[3] != 0.0 && !group.solid())
+    return refuse(b, card.where("v4"),
+                  group_name(group) + " is no solid: its parameters can't grow with the stress of the ground");
   if (group.solid() || group.interface() || group.entry->law_size == 1) return true;
   return refuse(b, card.where("kind"),
-                "kind 7 (a parameter that grows with depth) is for solids, interfaces and bars; " +
-                    group_name(group) + " is of " + group.entry->name);
+                "kind 7 (a parameter that grows) is for solids, interfaces and bars; " + group_name(group) +
+                    " is of " + group.entry->name);
 }
 
 }  // namespace

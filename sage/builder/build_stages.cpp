@@ -210,7 +210,7 @@ int values_of(InitialKind kind, const Group* group) {
   const bool known = group != nullptr && group->element;
   if (kind == InitialKind::uniform) return known ? group->entry->law_size : 4;
   if (kind == InitialKind::geostatic) return 4;
-  if (kind == InitialKind::parameter) return 3;
+  if (kind == InitialKind::parameter) return 4;
   const bool one =
       kind == InitialKind::traction || kind == InitialKind::lock_off || kind == InitialKind::material;
   return one ? 1 : kind == InitialKind::history ? 6 : 0;
@@ -316,7 +316,7 @@ void read_initial(Builder& b, const CardView& card, bool in_stage, std::vector<I
         "S210", card.where("kind"),
         "initial stress kind " + std::to_string(kind) +
             " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours, 4 history of the law, "
-            "5 lock-off, 6 another material, 7 a parameter that grows with depth");
+            "5 lock-off, 6 another material, 7 a parameter that grows with depth or stress");
     return;
   }
   initial.kind = static_cast<InitialKind>(kind);

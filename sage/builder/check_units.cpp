@@ -173,7 +173,7 @@ bool are_densities(const Builder& b, const Scale& scale, double gravity) {
 
 void check_weights(Builder& b, double water) {
   for (const Material& material : b.model.materials) {
-    if (material.entry == nullptr || !material.entry->for_solids() || material.undrained) continue;
+    if (material.entry == nullptr || !material.entry->for_solids() || material.twin) continue;
     const std::string name = "material " + std::to_string(material.number);
     const Span allowed = is_ground(material) ? kGroundWeights : kSolidWeights;
     check_weight(b, material.where, name, material.unit_weight, water, allowed);
@@ -235,7 +235,7 @@ void check_stress(Builder& b, const Material& material, const std::string& what,
 void check_stresses(Builder& b, double atmosphere) {
   constexpr double kAny = 1e300;
   for (const Material& material : b.model.materials) {
-    if (material.entry == nullptr || !material.entry->for_solids() || material.undrained) continue;
+    if (material.entry == nullptr || !material.entry->for_solids() || material.twin) continue;
     const bool ground = is_ground(material);
     const double phi = material.parameter(ParameterRole::friction_angle).value_or(0.0);
     const auto& rows = material.entry->parameters;

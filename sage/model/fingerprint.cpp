@@ -39,6 +39,7 @@ void add_stage(Archive& archive, const Stage& s) {
   add(archive, s.births, s.deaths);
   add_initials(archive, s.initials);
   if (s.strength_factor != 0.0) add(archive, s.strength_factor);
+  if (s.resets_displacements) add(archive, s.resets_displacements);
 }
 
 }  // namespace

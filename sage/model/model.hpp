@@ -149,8 +149,8 @@ enum class InitialKind {
   traction,   // interfaces: the traction that the neighbouring group's initial stress puts on the interface
   history,    // history of the law: number of the first quantity (from 1), then values; NaN = left as it is
   lock_off,  // bars, in a stage: the force of one bar that stands at its end; from the next stage on the bar is elastic
-  material,   // in a stage: number of the material that the group goes on with; its stress stays
-  parameter,  // a parameter of the law (number from 1), level, and growth per length of depth below that level
+  material,  // in a stage: number of the material that the group goes on with; its stress stays
+  parameter,  // number of a parameter (from 1), level, growth per depth below it, growth per effective vertical stress
 };
 // Of the others the stress stays as it is.
 inline bool states_stress(InitialKind kind) {

@@ -58,6 +58,16 @@ std::string named(std::initializer_list<std::string_view> names, const double* v
   return text;
 }
 
+std::string parameter_text(const Model& model, const double* v) {
+  std::string text = fmt::format("parameter {:.0f} grows", v[0]);
+  if (v[2] != 0.0)
+    text += fmt::format(" with depth below {:.6g} by {:.6g} each {}", v[1], v[2], model.units.length);
+  if (v[3] != 0.0)
+    text += fmt::format("{} by {:.6g} times the effective vertical stress of the start",
+                        v[2] != 0.0 ? ", and" : "", v[3]);
+  return text;
+}
+
 std::string initial_text(const Model& model, const Group& group, const InitialStress& initial) {
   const double* const v = initial.value.data();
   switch (initial.kind) {
@@ -78,8 +88,7 @@ std::string initial_text(const Model& model, const Group& group, const InitialSt
     case InitialKind::material:
       return fmt::format("goes on with material {:.0f}, its stress stays", v[0]);
     case InitialKind::parameter:
-      return fmt::format("parameter {:.0f} grows with depth below {:.6g}: {:.6g} each {}", v[0], v[1], v[2],
-                         model.units.length);
+      return parameter_text(model, v);
     case InitialKind::history:
       break;
   }
@@ -236,6 +245,7 @@ void counts(std::string& text, const Model& model) {
 void materials(std::string& text, const Model& model, const Catalogue& catalogue) {
   heading(text, "MATERIALS");
   for (const Material& material : model.materials) {
+    if (!material.variants.empty()) continue;  // what its stages do to it stands with them
     const MaterialEntry* entry = catalogue.materials.find(material.code);
     fmt::format_to(to(text), "   {:>4}  {:<24} law {} {}\n", material.number, material.name, material.code,
                    material.law_name);

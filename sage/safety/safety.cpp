@@ -150,6 +150,7 @@ class Finder final : public Trials {
   void choose_materials();
   void keep_other_strengths();
   void insert_trial_stage();
+  void move_law_choices();
   Stage& trial_stage() { return model_.stages[static_cast<std::size_t>(safety_.stages)]; }
   void set_factor(double factor);
   void prepare_stages();
@@ -266,9 +267,25 @@ void Finder::insert_trial_stage() {
   trial.tolerance = safety_.tolerance;
   trial.where = model_.stages[last].where;
   safety_.stages = static_cast<int>(last) + 1;
+  move_law_choices();
   model_.stages.insert(model_.stages.begin() + safety_.stages, std::move(trial));
   for (WaterCard& card : model_.water)  // those of later stages stay theirs
     if (card.stage >= safety_.stages) ++card.stage;
+}
+
+// Laws of later stages stay theirs; bars whose force was held up to here go on with their law in the trial.
+void Finder::move_law_choices() {
+  const auto index = static_cast<std::size_t>(safety_.stages);
+  for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+    const auto states_law = [&](const InitialStress& initial) {
+      return initial.group == static_cast<int>(g) &&
+             (is_about_law(initial.kind) || initial.kind == InitialKind::lock_off);
+    };
+    const bool own =
+        index < model_.stages.size() && std::ranges::any_of(model_.stages[index].initials, states_law);
+    for (LawChoice& choice : model_.groups[g].choices)
+      if (choice.stage > safety_.stages || (choice.stage == safety_.stages && own)) ++choice.stage;
+  }
 }
 
 void Finder::set_factor(double factor) {

@@ -9,6 +9,7 @@
 
 #include "sage/app/commands.hpp"
 #include "sage/model_file/model_file.hpp"
+#include "sage/safety/safety.hpp"
 #include "tests/studies/workbench.hpp"
 
 namespace sage::test {
@@ -185,6 +186,30 @@ TEST(StageLaws, AStiffnessGrowsWithDepth) {
   }
 }
 
+// E = 500 + 20 sigma_v'.  Of a saturated column (18 per m, water to the top at 10) sigma_v' = 8 (-y): 8, 24, 40 and 56 in the
+// middle of the elements, whose mean E are 660, 980, 1300, 1620.  Stated by a geostatic card, or found from the weight.
+TEST(StageLaws, AStiffnessGrowsWithTheVerticalStress) {
+  const std::string water =
+      "[[water]]\nkind = \"line\"\nvalues = [[0.0, 0.0], [1.0, 0.0]]\naction = \"none\"\n";
+  const std::string grows =
+      "[[initial]]\ngroup = \"soil\"\nkind = \"parameter\"\nparameter = \"youngs_modulus\"\n"
+      "values = [0, 0, 0, 20.0]\n";
+  const std::string stated =
+      "[[initial]]\ngroup = \"soil\"\nkind = \"geostatic\"\nvalues = [0.0, 18.0, 0.0, 0.0]\n";
+  for (const std::string& start : {std::string(), stated}) {
+    std::string text = column(
+        false, elastic("first", 500.0),
+        start + grows + "[[stage]]\ngravity_y = -1.0\n" + press("reset_displacements = true", 30.0) + water);
+    const std::string law = "law = \"linear_elastic\"\n", units = "stress = \"kPa\"\n";
+    text.replace(text.find(law), law.size(), law + "unit_weight = 18.0\n");
+    text.replace(text.find(units), units.size(), units + "water_unit_weight = 10.0\n");
+    const WholeRun run = run_model(text);
+    ASSERT_TRUE(run.completed()) << run.failure;
+    const double settlement = 30.0 * 2.0 * (1.0 / 660.0 + 1.0 / 980.0 + 1.0 / 1300.0 + 1.0 / 1620.0);
+    EXPECT_NEAR(run.u(9).y(), -settlement, 1e-9);
+  }
+}
+
 std::string tresca(const std::string& name, double c) {
   return fmt::format(
       "[[material]]\nname = \"{}\"\nlaw = \"mohr_coulomb\"\nyoungs_modulus = 10000.0\npoissons_ratio = 0.3\n"
@@ -249,6 +274,59 @@ TEST(StageLaws, StressOutsideTheNewYieldSurfaceReturnsToIt) {
   const double settlement = 8.0 * ((70.0 + 2.0 * 46.0) - (70.0 + 2.0 * 30.0)) / 3.0 / bulk;
   EXPECT_NEAR(run.u(9).y() - run.increments[0].u[DofMap::displacement(run.index(9), 1)], -settlement, 1e-7);
   expect_restarts(text);
+}
+
+// A cantilever of 2 m in two elements, whose EI is four times as large from the second stage on: tip P L^3 / (3 EI) of each
+// load on the EI of its stage, and P L / GA with GA = 5/12 EA where the material leaves it out.
+TEST(StageLaws, ABeamGetsStiffer) {
+  const auto section = [](const char* name, double EI) {
+    return fmt::format(
+        "[[material]]\nname = \"{}\"\nlaw = \"section_elastic\"\naxial_stiffness = 1e5\n"
+        "bending_stiffness = {:.1f}\n",
+        name, EI);
+  };
+  const std::string text =
+      head(false) +
+      "node = [{x = 0.0, y = 0.0}, {x = 1.0, y = 0.0}, {x = 2.0, y = 0.0}]\n"
+      "element = [{group = \"lining\", nodes = [1, 2]}, {group = \"lining\", nodes = [2, 3]}]\n"
+      "fixity = [{first = 1, x = \"fixed\", y = \"fixed\"}, {first = 1, x = \"fixed\", unknown = "
+      "\"rotation\"}]\n" +
+      kUnits + section("young", 100.0) + section("old", 400.0) +
+      "[[group]]\nname = \"lining\"\nelement = \"beam2\"\nmaterial = \"young\"\n"
+      "[[stage]]\nload = [{first = 3, y_force = -3.0}]\n"
+      "[[stage]]\nload = [{first = 3, y_force = -6.0}]\ninitial = [{group = \"lining\", kind = \"material\", "
+      "material = \"old\"}]\n";
+  const WholeRun run = run_model(text);
+  ASSERT_TRUE(run.completed()) << run.failure;
+  const double GA = 5.0 / 12.0 * 1e5;
+  EXPECT_NEAR(run.increments[0].u[DofMap::displacement(run.index(3), 1)], -3.0 * (8.0 / 300.0 + 2.0 / GA),
+              1e-10);
+  EXPECT_NEAR(run.u(3).y(), -3.0 * 8.0 / 300.0 - 6.0 * 8.0 / 1200.0 - 9.0 * 2.0 / GA, 1e-10);
+  expect_restarts(text);
+}
+
+// Pressed from its right side by c = 10 + 3 (-z), with nothing on its top, the column needs c / F = c / 2 everywhere.
+TEST(StageLaws, ASafetyFactorDividesStrengthsPointByPoint) {
+  std::string text = column(
+      false, tresca("first", 10.0),
+      "[[initial]]\ngroup = \"soil\"\nkind = \"parameter\"\nparameter = \"cohesion\"\nvalues = [0, 0.0, 3.0]\n"
+      "[[stage]]\npressure = [{element = 1, edge = 2, normal1 = 34.0, normal2 = 28.0},\n"
+      "  {element = 2, edge = 2, normal1 = 28.0, normal2 = 22.0},\n"
+      "  {element = 3, edge = 2, normal1 = 22.0, normal2 = 16.0},\n"
+      "  {element = 4, edge = 2, normal1 = 16.0, normal2 = 10.0}]\n");
+  const std::string held =
+      "{first = 1, last = 2, x = \"fixed\", y = \"fixed\"}, {first = 1, last = 10, x = \"fixed\"}";
+  text.replace(text.find(held), held.size(),
+               "{first = 1, last = 2, y = \"fixed\"}, {first = 1, last = 9, step = 2, x = \"fixed\"}");
+  Model model = model_of(text);
+  safety::Options options;
+  options.limits.tolerance = 0.02;
+  const safety::Safety found =
+      safety::find_safety(model, workbench().catalogue(), workbench().settings(), options);
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LE(*found.lower, 2.0);
+  EXPECT_GE(*found.upper, 2.0);
+  EXPECT_LE(*found.upper - *found.lower, 0.0201);
 }
 
 TEST(StageLaws, CardsThatDoNotFitAreRejected) {
