@@ -27,6 +27,7 @@ void StageStart::open(int stage) {
   RunState& state = run_.state;
   start_new_nodes();
   reset_displacements(stage);
+  const std::vector<int> stored = free_stored_dofs(stage);
   run_.system.open_stage(stage);
   if (stage > 0) choose_laws(stage);
   start_states(stage, run_.system.activity(), run_.model.stages[static_cast<std::size_t>(stage)].initials,
@@ -38,8 +39,23 @@ void StageStart::open(int stage) {
   evaluate();
   run_.assembly().commit(state.du);
   find_loads(stage);
+  for (const int dof : stored) state.path.force_start[dof] = state.external[dof];
   note_imbalance(stage);
   take_pressures_of_supports(stage);
+}
+
+// Of fields whose elements store what comes in, where the stage before was free to find their balance.  At its end the rate
+// of storage was part of that balance.  At rest it is not, and what is missing must not become a load.
+std::vector<int> StageStart::free_stored_dofs(int stage) const {
+  std::vector<int> dofs;
+  const Assembly& assembly = run_.assembly();
+  if (stage == 0 || !assembly.wants_step_time()) return dofs;
+  const DofMap& map = assembly.dof_map();
+  for (int dof = map.displacements(); dof < map.dofs(); ++dof) {
+    const UnknownField& field = run_.model.unknowns[static_cast<std::size_t>(map.at(dof).field)];
+    if (!field.balanced && !field.of_pores && assembly.equation_of(dof) >= 0) dofs.push_back(dof);
+  }
+  return dofs;
 }
 
 // Loads of excess pressures are volumes that have left since the beginning, and so are their internal forces.  What came or

@@ -24,6 +24,7 @@ class StageStart {
   void start_states(int stage, const Activity& activity, const std::vector<InitialStress>& initials,
                     bool drainage);
   void find_loads(int stage);
+  std::vector<int> free_stored_dofs(int stage) const;
   void let_in_what_came(int stage);
   void take_pressures_of_supports(int stage);
   void begin_water(int stage, const PorePressure* water);

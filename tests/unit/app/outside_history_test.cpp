@@ -202,6 +202,25 @@ TEST(OutsideHistory, OneFactorisationServesAllStepsOfASize) {
   }
 }
 
+// A stage that begins while water flows goes on with it: what the elements store is no load that fades.
+TEST(OutsideHistory, StoredRatesGoOnInTheNextStage) {
+  Model model = column();
+  Stage next = model.stages[0];
+  next.number = 2;
+  next.loads.clear();
+  model.stages.push_back(next);
+  const DofMap map(model);
+  const WholeRun run = bench().run(std::move(model));
+  ASSERT_TRUE(run.completed()) << run.failure;
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(2 * kBars + 2);
+  for (int i = 0; i < 2 * kSteps; ++i)
+    expected = backward_euler(expected, kTime / kSteps, kLoad * std::min(1.0, (i + 1.0) / kSteps));
+  for (int node = 0; node <= kBars; ++node) {
+    EXPECT_NEAR(run.last().u[DofMap::displacement(node) + 1], expected[node], 1e-9 * kLoad / kE);
+    EXPECT_NEAR(run.last().u[map.of(node, 1)], expected[kBars + 1 + node], 1e-9 * kLoad);
+  }
+}
+
 TEST(OutsideHistory, AMissingSecondLawIsAnError) {
   try {
     bench().run(column(false));
