@@ -229,6 +229,9 @@ class InpWriter {
       control_ += (control_.empty() ? "" : ", ") + std::to_string(stage.number);
     if (stage.strength_factor != 0.0)
       warning("stage " + std::to_string(stage.number) + ": its strength factor is left out");
+    if (stage.pores != usual.pores || stage.theta != usual.theta || stage.grading != usual.grading)
+      warning("stage " + std::to_string(stage.number) +
+              ": its pore water, theta and the grading of its increments are left out");
     if (!stage.births.empty() || !stage.deaths.empty())
       warning("stage " + std::to_string(stage.number) + ": births and deaths of groups are left out");
     if (!stage.initials.empty())

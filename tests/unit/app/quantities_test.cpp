@@ -13,6 +13,7 @@
 #include "sage/model/fingerprint.hpp"
 #include "tests/install/consumer/bar.hpp"
 #include "tests/install/consumer/diffusion.hpp"
+#include "tests/studies/scenes/consolidation.hpp"
 #include "tests/studies/scenes/deck_writer.hpp"
 
 namespace sage::app {
@@ -138,6 +139,17 @@ Model mohr_coulomb() {
   return plain(1, 1, {4, {1000.0, 0.25, 5.0, 30.0, 0.0}});
 }
 
+// Soil whose pore water flows, drained at its top; one stage in which nothing happens.
+Model of_pores() {
+  const scenes::PoreMesh mesh{.x = {1.0, 2.0}, .y = {0.0, 1.0}};
+  ModelInput input = scenes::pore_input(mesh, 1000.0, 0.25, 1e-3);
+  input.supports = {scenes::held(mesh.row(0), true, true), scenes::drained(mesh.corner_row(2))};
+  input.stages.emplace_back();
+  Model model = build_model(input, catalogue());
+  model.file.clear();
+  return model;
+}
+
 constexpr const char *kMaterials = "material(s)", *kStages = "stage(s)", *kReports = "report(s)",
                      *kControl = "method, limit of iterations, tolerance and output interval";
 
@@ -220,6 +232,12 @@ const std::vector<Row>& rows() {
       {"stage title", {"", kStages, ""}, [](Model& m) { first(m).title = "filling"; }},
       {"increments", {"", kStages, ""}, [](Model& m) { first(m).increments = 4; }},
       {"duration", {"", kStages, ""}, [](Model& m) { first(m).duration = 3.0; }},
+      {"pore water",
+       {"", kStages, "pore water"},
+       [](Model& m) { first(m).pores = PoreWater::flows; },
+       of_pores},
+      {"theta", {"", kStages, "theta"}, [](Model& m) { first(m).theta = 0.5; }},
+      {"grading of increments", {"", kStages, "grading"}, [](Model& m) { first(m).grading = 1.5; }},
       {"method", {"", kStages, kControl}, [](Model& m) { first(m).method = Method::dogleg; }},
       {"iterations", {"", kStages, kControl}, [](Model& m) { first(m).max_iterations = 40; }},
       {"output interval", {"", kStages, kControl}, [](Model& m) { first(m).output_every = 3; }},
