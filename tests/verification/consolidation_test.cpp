@@ -293,6 +293,128 @@ TEST(Consolidation, AHeldPressureIsReached) {
   for (int j = 0; j <= 8; j += 2) EXPECT_NEAR(pressure(done, column.mesh.node(0, j)), 2.0 - 0.25 * j, 1e-9);
 }
 
+// ---- laws ----
+
+void add_strip(Block2d& block, const StageInput& stage, double load) {
+  block.load(stage);
+  PressureInput& last = block.input.stages.back().pressures[0];
+  last.normal1 = last.normal2 = load;
+}
+
+// A block that starts with 50 in all directions, under as much on its top; then a strip load.
+Block2d loaded_block(const MaterialInput& law, StageInput strip, double load) {
+  Block2d block("quad8p4");
+  block.input.materials[0] = law;
+  block.input.initials = {{.group = 1, .kind = InitialKind::uniform, .values = {50.0, 50.0, 50.0, 0.0}}};
+  StageInput all{.title = "surcharge"};
+  all.pressures = {{.elements = block.mesh.upper_elements(),
+                    .edge = block.mesh.upper_edge(),
+                    .normal1 = 50.0,
+                    .normal2 = 50.0}};
+  block.input.stages = {all};
+  strip.tolerance = 1e-11;
+  add_strip(block, strip, load);
+  return block;
+}
+
+struct LawOfSoil {
+  MaterialInput material;
+  bool yields = true;
+  bool parts = false;  // increments are taken in parts, whose sizes depend on the state
+};
+const std::vector<LawOfSoil>& laws_of_soil() {
+  static const std::vector<LawOfSoil> laws{
+      {{"linear_elastic", {{"youngs_modulus", 1e4}, {"poissons_ratio", 0.3}}}, false},
+      {{"mohr_coulomb",
+        {{"youngs_modulus", 1e4}, {"poissons_ratio", 0.3}, {"cohesion", 2.0}, {"friction_angle", 22.0}}}},
+      {{"drucker_prager",
+        {{"youngs_modulus", 1e4}, {"poissons_ratio", 0.3}, {"cohesion", 2.0}, {"friction_angle", 22.0}}}},
+      {{"mohr_coulomb_softening",
+        {{"youngs_modulus", 1e4},
+         {"poissons_ratio", 0.3},
+         {"cohesion", 3.0},
+         {"friction_angle", 22.0},
+         {"dilation_angle", 0.0},
+         {"strain_1", 0.1},
+         {"cohesion_1", 2.5},
+         {"friction_angle_1", 21.0},
+         {"dilation_angle_1", 0.0}}}},
+      {{"modified_cam_clay",
+        {{"M", 1.0},
+         {"lambda", 0.2},
+         {"kappa", 0.04},
+         {"specific_volume", 2.2},
+         {"poissons_ratio", 0.3},
+         {"ocr", 1.2}}},
+       true,
+       true}};
+  return laws;
+}
+
+long yielding_points(const WholeRun& run) {
+  return run.last().points[static_cast<std::size_t>(PointStatus::yielded)];
+}
+
+// A load that grows so slowly that no pressure is left is the drained load of quad8, of any law; one in no time is the
+// undrained stage.
+TEST(Consolidation, EveryLawHasItsDrainedAndUndrainedLimit) {
+  constexpr int kIncrements = 4;
+  for (const LawOfSoil& law : laws_of_soil()) {
+    SCOPED_TRACE(law.material.law);
+    Block2d dry = loaded_block(law.material, {.increments = kIncrements}, 250.0);
+    dry.input.groups[0].element = "quad8";
+    dry.input.groups[0].second_material = 0;
+    dry.input.supports.pop_back();
+    dry.input.materials.pop_back();
+    const WholeRun drained = run(dry.input),
+                   slow = run(loaded_block(law.material, consolidation(1e12, kIncrements), 250.0).input);
+    const auto closed = [&](StageInput strip) {
+      strip.increments = kIncrements;
+      Block2d block = loaded_block(law.material, strip, 80.0);
+      block.input.supports.pop_back();
+      return run(block.input);
+    };
+    const WholeRun undrained = closed(shut_in()), fast = closed(consolidation(1e-18, kIncrements));
+    const Eigen::Index n = DofMap(*drained.model).dofs();
+    const auto difference = [&](const WholeRun& a, const WholeRun& b) {
+      return (a.last().u.head(n) - b.last().u.head(n)).norm() / b.last().u.head(n).norm();
+    };
+    EXPECT_LT(difference(slow, drained), 1e-9);
+    EXPECT_LT(difference(fast, undrained), law.parts ? 1e-6 : 1e-9);
+    EXPECT_EQ(yielding_points(drained) > 0, law.yields);
+  }
+}
+
+struct ResidualObserver final : Observer {
+  std::vector<std::vector<double>> steps;
+  void on_increment(const Model&, const StepReport& step, const Solution&) override {
+    std::vector<double> forces;
+    for (const IterationRecord& one : step.iterations) forces.push_back(one.force);
+    steps.push_back(forces);
+  }
+};
+
+// Half of an embankment in two lifts with a wait between them, on clay of Mohr-Coulomb's law.
+TEST(Consolidation, AnEmbankmentOnMohrCoulombConvergesQuadratically) {
+  Block2d block = loaded_block(laws_of_soil()[1].material, consolidation(1e-5, 4), 90.0);
+  block.input.stages.push_back(consolidation(2e-4, 4, 2.0));
+  add_strip(block, consolidation(1e-5, 4), 60.0);
+  for (StageInput& stage : block.input.stages) stage.tolerance = 1e-11;
+  ResidualObserver seen;
+  Observer* also[] = {&seen};
+  const WholeRun done = bench().run(build_model(block.input, bench().catalogue()), {}, also);
+  ASSERT_TRUE(done.completed()) << done.failure;
+  EXPECT_GT(yielding_points(done), 0);
+  int pairs = 0;
+  for (const std::vector<double>& f : seen.steps)
+    for (std::size_t i = 1; i < f.size(); ++i) {
+      if (!(f[i - 1] > 1e-6 && f[i - 1] < 1e-3)) continue;
+      EXPECT_LT(f[i], 1e3 * f[i - 1] * f[i - 1]);
+      ++pairs;
+    }
+  EXPECT_GE(pairs, 5);
+}
+
 // ---- cards ----
 
 // The wide layout has all that the model says.
