@@ -207,28 +207,6 @@ TEST(WallModes, AnchorThatYields) {
   EXPECT_NEAR(answer.share, anchor / (anchor + ground), test::kSanitized ? 0.1 : 0.03);
 }
 
-// Soil at full strength, the anchor's alone is divided: the force that keeps the wall in balance at F = 1 is T/F.  It is a
-// small difference of large thrusts.
-TEST(WallModes, AnchorAloneIsDivided) {
-  HandWall wall;
-  wall.dug = 6.0;
-  wall.anchor = 50.0;
-  wall.anchor_depth = 1.0;
-  scenes::WallInGround scene = scene_of(wall);
-  const Answer answer = find_factor(scene.deck(), {ModelPart::anchors}, 1.0, 0);
-  HandWall balanced = wall;
-  const double least = falls_through_zero(
-      [&](double T) {
-        balanced.anchor = T;
-        return moment_of_turning(balanced, 1.0);
-      },
-      5.0, 60.0);
-  expect_factor(answer.found, wall.anchor / least, 0.06);
-  EXPECT_EQ(answer.fails, ModelPart::anchors);
-  ASSERT_EQ(answer.found.reduced.size(), 1u);
-  EXPECT_EQ(answer.found.reduced[0], "5 anchors that yield (axial_plastic)");
-}
-
 // Without ground a frame's own motion is the collapse: a cantilever with a force P at its end has F = M_p/(P L).
 TEST(WallModes, CantileverWithoutGround) {
   scenes::DeckWriter deck(1);
@@ -246,6 +224,33 @@ TEST(WallModes, CantileverWithoutGround) {
   EXPECT_GE(*answer.found.upper, 1.5);
   EXPECT_EQ(answer.fails, ModelPart::walls);
   EXPECT_NEAR(answer.share, 1.0, 1e-12);
+}
+
+// A bar of strength T every s metres under a force P for each unit of width: F = T/(s P).  The beam beside it, which could
+// not carry more than 1.2 P, is not divided.
+TEST(WallModes, OnlyWhatIsNamedIsDivided) {
+  scenes::DeckWriter deck(1);
+  deck.node(1, 0.0, 0.0);
+  deck.node(2, 1.0, 0.0);
+  deck.node(3, 2.0, 0.0);
+  deck.material(1, 33, {1e5, 80.0, 0.0, 2.0}, 0.0, "tie");
+  deck.material(2, 37, {1e6, 1e4, 30.0, 90.0}, 0.0, "beam");
+  deck.group(1, 31, 0, 1, "tie");
+  deck.group(2, 35, 1, 2, "beam");
+  deck.element(1, 1, {1, 2});
+  deck.element(2, 2, {2, 3});
+  deck.fix(1, 1, 1);
+  deck.fix(2, 0, 1);
+  deck.fix(3, 0, 1);
+  deck.stage(2).load(3, 25.0, 0.0);
+  const Answer answer = find_factor(deck, {ModelPart::anchors}, 1.0, 0);
+  ASSERT_TRUE(answer.found.complete()) << answer.found.incomplete;
+  EXPECT_LE(*answer.found.lower, 1.6);
+  EXPECT_GE(*answer.found.upper, 1.6);
+  EXPECT_EQ(answer.fails, ModelPart::anchors);
+  EXPECT_NEAR(answer.share, 1.0, 1e-12);
+  EXPECT_EQ(answer.found.reduced, std::vector<std::string>{"1 tie (axial_plastic)"});
+  EXPECT_EQ(answer.found.untouched, std::vector<std::string>{"2 beam (section_plastic): not asked for"});
 }
 
 }  // namespace
