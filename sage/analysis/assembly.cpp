@@ -164,7 +164,7 @@ void Assembly::enter_stage(const Activity& activity, const Eigen::VectorXd& rate
 }
 
 const EliminatedDofs& Assembly::eliminated() const {
-  static const EliminatedDofs none;
+  static const EliminatedDofs none{};
   return none;
 }
 

@@ -73,12 +73,14 @@ NewtonStep DampedSteps::attempt(StepReport& report, double from, double to, cons
     run_.assembly().drop_step();
     state.du.setZero();
     run_.set_step_time(from, 0.0);
-    if (!run_.tangent().has_elastic()) {
-      run_.tangent().begin_elastic();
-      run_.tangent().end_elastic(run_.assembly().evaluate_elastic(run_.tangent()));
-    }
+    ElasticMatrices& elastic = run_.tangent().elastic();
     run_.tangent().forget();
-    if (!run_.tangent().has_elastic()) return failed;
+    if (!elastic.known()) {
+      elastic.begin();
+      elastic.end(run_.assembly().evaluate_elastic(run_.tangent()));
+      run_.tangent().forget();
+    }
+    if (!elastic.known()) return failed;
     step = stepper_.attempt_damped(from, to, {fall, &of_solids_});
     if (run_.settings.trials != nullptr && !descends() && !step.flows) step = creep(report, to, fall, step);
     if (!step.flows || shows_collapse(step)) break;

@@ -25,7 +25,7 @@ struct NewtonSettings {
   NewtonStart start = NewtonStart::committed;
   IterationPolicy* policy = nullptr;  // null = the plain one
   bool refine = false;                // a first correction is not enough, even if it leaves only rounding
-  // Every correction is held back by a share of the elastic stiffness (Tangent::has_elastic), which falls with the
+  // Every correction is held back by a share of the elastic stiffness (ElasticMatrices), which falls with the
   // residual: for steps that Newton's corrections find no end of.  The largest part of the share that a correction
   // leaves to the next one; 0 = no damping.
   double damping_fall = 0.0;

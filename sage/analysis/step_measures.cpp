@@ -51,10 +51,10 @@ double StepMeasures::take_first(const Eigen::VectorXd& motion, const Eigen::Vect
 
 // What the first correction of a field makes in its own equations, where another field balances it.
 double StepMeasures::own_forces(const Eigen::VectorXd& motion, int field) const {
-  if (fields_.count() == 1 || tangent_.norm1() < 0.0) return 0.0;
+  if (fields_.count() == 1 || tangent_.sizes().norm1() < 0.0) return 0.0;
   if (water_flows(assembly_) && linear_in_step(assembly_))
     return 0.0;  // no iteration runs away, and there are many steps
-  return fields_.norm(tangent_.times(fields_.part(motion, field)), field);
+  return fields_.norm(tangent_.sizes().times(fields_.part(motion, field)), field);
 }
 
 void StepMeasures::take_energy(const Eigen::VectorXd& correction, const Eigen::VectorXd& residual) {
@@ -144,9 +144,9 @@ WorstDof StepMeasures::worst(const Eigen::VectorXd& residual) const {
 
 // Of the field's own block of K; of one among several from below, which is the careful side.
 double StepMeasures::stiffness_norm(int field) const {
-  const double norm1 = tangent_.norm1();
+  const double norm1 = tangent_.sizes().norm1();
   if (fields_.count() == 1 || norm1 < 0.0) return norm1;
-  return tangent_.coupling_of(fields_, field, field);
+  return tangent_.sizes().coupling_of(fields_, field, field);
 }
 
 double StepMeasures::size_of_unknown(int field) const {
@@ -162,7 +162,7 @@ double StepMeasures::of_step(int field) const {
 double StepMeasures::of_all_steps(int field) const {
   double sum = 0.0;
   for (int f = 0; f < fields_.count(); ++f)
-    sum += tangent_.coupling_of(fields_, field, f) * fields_.largest_of_dofs(du_, f);
+    sum += tangent_.sizes().coupling_of(fields_, field, f) * fields_.largest_of_dofs(du_, f);
   return kUnitRounding * sum;
 }
 
@@ -182,12 +182,14 @@ double StepMeasures::of_all_unknowns(int field) const {
                      std::ranges::any_of(*settings_.unknowns, [](const UnknownField& f) { return f.of_pores; });
   if (const double stiffness = pores ? stiffness_norm(0) : 0.0; stiffness > 0.0) {
     double force = 0.0;
-    for (int f = 1; f < fields_.count(); ++f) force += tangent_.coupling_of(fields_, 0, f) * size_of_unknown(f);
+    for (int f = 1; f < fields_.count(); ++f)
+      force += tangent_.sizes().coupling_of(fields_, 0, f) * size_of_unknown(f);
     reach = std::max(reach, force / stiffness);
   }
   double sum = 0.0;
   for (int f = 0; f < fields_.count(); ++f)
-    sum += kUnitRounding * tangent_.coupling_of(fields_, field, f) * (f == 0 ? reach : size_of_unknown(f));
+    sum +=
+        kUnitRounding * tangent_.sizes().coupling_of(fields_, field, f) * (f == 0 ? reach : size_of_unknown(f));
   return sum;
 }
 

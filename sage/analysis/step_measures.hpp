@@ -44,7 +44,7 @@ class StepMeasures final : public RoundingBounds {
   // The largest entry, against the scale of its field.
   WorstDof worst(const Eigen::VectorXd& residual) const;
 
-  bool known() const override { return tangent_.norm1() >= 0.0; }
+  bool known() const override { return tangent_.sizes().norm1() >= 0.0; }
   double of_step(int field) const override;
   double of_all_steps(int field) const override;
   double of_prescribed(int field) const override;

@@ -2,18 +2,17 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "sage/analysis/elastic_matrices.hpp"
 #include "sage/analysis/group_data.hpp"
+#include "sage/analysis/matrix_sizes.hpp"
 #include "sage/analysis/records.hpp"
 #include "sage/core/linear_solver.hpp"
 #include "sage/core/solver_extensions.hpp"
 
 namespace sage {
-
-class ByField;
 
 class Tangent {
  public:
@@ -36,7 +35,6 @@ class Tangent {
     if (rate.isZero(0.0)) coupling_.setZero(rate.size());  // factors may go on to serve
   }
 
-  State state() const { return state_; }
   bool linear() const { return linear_; }
   bool constant() const { return constant_; }
   bool analysed() const { return solver_ != nullptr; }
@@ -52,6 +50,7 @@ class Tangent {
   void release() {
     solver_.reset();
     matrix_ = nullptr;
+    sizes_.take(nullptr, 0);
     state_ = State::empty;
   }
   // The next correction starts at another state: K and its factors hold only if an assembly there finds the same K.
@@ -69,17 +68,16 @@ class Tangent {
   // The same where none of its dofs is prescribed.
   void add(int element, const double* K) {
     solver_->add(element, K);
-    if (takes_elastic_) keep_elastic(element, K);
+    if (elastic_.is_taking()) elastic_.keep(element, K);
   }
   // ParallelAssembly::add_part of many; couple() is then for those with prescribed dofs.
   void add_part(const ElementMatrices& some, int part, int parts) {
-    if (parallel_ != nullptr)
-      parallel_->add_part(some, part, parts);
-    else if (part == 0)
-      add_one_by_one(some);
-    if (takes_elastic_ && part == 0)
-      for (int e = 0; e < some.count; ++e)
-        keep_elastic(some.first + e, some.K + static_cast<std::size_t>(e) * some.size);
+    if (parallel_ != nullptr) parallel_->add_part(some, part, parts);
+    for (int e = 0; part == 0 && e < some.count; ++e) {
+      const double* const K = some.K + static_cast<std::size_t>(e) * some.size;
+      if (parallel_ == nullptr) solver_->add(some.first + e, K);
+      if (elastic_.is_taking()) elastic_.keep(some.first + e, K);
+    }
   }
   void couple(const ElementDofs& dofs, const double* K);
   void differs() { changed_ = true; }
@@ -93,27 +91,16 @@ class Tangent {
   // Needs factors.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x, WorkCounters& work) const;
 
-  // The element matrices of the assembly in between are kept for damp() until the pattern changes.  K is dropped.
-  void begin_elastic();
-  void end_elastic(Outcome pass);
-  bool has_elastic() const { return !elastic_.empty() && !takes_elastic_; }
-  // Adds that share of them to the K of the last assembly, for one correction; then forget().
+  // Of the pattern in hand: assemblies between begin() and end() go there too, and K is then of no use.
+  ElasticMatrices& elastic() { return elastic_; }
+  // Adds that share of the elastic matrices to the K of the last assembly, for one correction; then forget().
   void damp(double share);
 
-  // Sizes of K, kept until it changes; they need an assembly.
-  // The largest column sum of |K|; -1 where the solver keeps no matrix.
-  double norm1() const;
-  // Largest size, in the equations of the field `to`, of K times signs without an order in those of the field
-  // `from`: of the block's row sums from below.
-  double coupling_of(const ByField& fields, int to, int from) const;
-  // K x, where the solver keeps its matrix.
-  Eigen::VectorXd times(const Eigen::VectorXd& x) const;
+  // Of K until it changes; they need an assembly.
+  const MatrixSizes& sizes() const { return sizes_; }
 
  private:
   void clear();
-  void forget_sizes();
-  void add_one_by_one(const ElementMatrices& some);
-  void keep_elastic(int element, const double* K);
 
   bool linear_, constant_;
   State state_ = State::empty;
@@ -124,14 +111,10 @@ class Tangent {
   const KeptMatrix* matrix_ = nullptr;
   const RepeatedParts* repeated_ = nullptr;
   std::string name_;
-  int equations_ = 0;
   const Eigen::VectorXd* rate_ = nullptr;
   Eigen::VectorXd coupling_;
-  bool takes_elastic_ = false;
-  std::vector<double> elastic_;            // matrices of all elements, one after the other; empty = not known
-  std::vector<std::size_t> elastic_from_;  // of each element, and the end
-  mutable std::optional<double> norm1_;
-  mutable std::vector<double> sizes_;  // coupling_of() all fields, column by column
+  ElasticMatrices elastic_;
+  MatrixSizes sizes_;
 };
 
 // An element of the system.

@@ -11,9 +11,9 @@ bool PredictedIteration::begin(StepIteration& step, const Eigen::VectorXd& rate)
   if (step.form_tangent() == Outcome::cut_step) return false;
   step.form_residual();
   step.solve();
-  if (step.tangent.norm1() >= 0.0) {  // the solver keeps K
+  if (step.tangent.sizes().norm1() >= 0.0) {  // the solver keeps K
     const Eigen::VectorXd way = step.free_part_of_du();
-    step.result.predicted_work = step.measures.take_first(way, step.tangent.times(way));
+    step.result.predicted_work = step.measures.take_first(way, step.tangent.sizes().times(way));
   } else {
     step.result.predicted_work = step.measures.take_first(step.correction, step.residual);
   }
