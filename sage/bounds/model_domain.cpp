@@ -437,6 +437,9 @@ class GroundMaker {
   }
 
   void add_water() {
+    if (unknowns_ == nullptr && wants_heads())
+      reject("S577", {},
+             "pore pressures from the heads of flow elements need the heads at the start of the stage");
     std::vector<char> groups(m_.groups.size(), 0);
     for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = activity_.group[g];
     auto water = std::make_shared<PorePressure>(m_, stage_, groups, activity_.dof_map, unknowns_);
@@ -445,9 +448,6 @@ class GroundMaker {
       const WaterCard* card = is_ground(g) ? water->card(g) : nullptr;
       if (card == nullptr) continue;
       any = true;
-      if (card->kind == WaterKind::heads && unknowns_ == nullptr)
-        reject("S577", card->where,
-               "pore pressures from the heads of flow elements need the heads at the start of the stage");
     }
     if (!any) return;
     for (const Side& side : sides_) {

@@ -1,6 +1,7 @@
 // Decks as limit analysis sees them, and what it rejects.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -140,6 +141,44 @@ TEST(Ground, SlopesInOtherUnits) {
     EXPECT_NEAR(*other.lower.value, *one.lower.value, 2e-4 * *one.lower.value);
     EXPECT_NEAR(*other.upper.value, *one.upper.value, 2e-4 * *one.upper.value);
   }
+}
+
+// Pore pressure gamma_w (h - y) at every node of the deck, from the heads that a run leaves at the start of the stage.
+TEST(Ground, HeadsOfAFlow) {
+  const Model model = model_of("seepage/earth_dam/deck.dat");
+  ASSERT_TRUE(wants_heads(model, 1));
+  EXPECT_FALSE(wants_heads(model, 0));
+  EXPECT_THROW((void)make_ground(model, 1, 1), InputError);
+  const scenes::WholeRun run = bench().run(model_of("seepage/earth_dam/deck.dat"));
+  ASSERT_TRUE(run.completed());
+  const Eigen::VectorXd& u = run.increments.front().u;
+  const Ground ground = make_ground(model, 1, 1, &u);
+  const DofMap map(model);
+  const int field = find_unknown(model.unknowns, "head");
+  int found = 0;
+  for (const Triangle& t : ground.domain.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Vector2& x = ground.domain.x[at(t.node[at(i)])];
+      for (int node = 0; node < model.mesh.nodes(); ++node) {
+        if ((model.mesh.x.col(node) - x).norm() > 1e-9) continue;
+        const double p = 9.81 * std::max(0.0, u[map.of(node, field)] - x.y());
+        EXPECT_NEAR(ground.domain.pressure(t, i), p, 1e-9);
+        found += p > 1.0 ? 1 : 0;
+      }
+    }
+  EXPECT_GT(found, 300);
+}
+
+// Where elements leave no room for refinement a quadrilateral becomes two triangles; with phi = 0 always four.
+TEST(Ground, DividesQuadrilaterals) {
+  const auto triangles = [](double phi, int room) {
+    const Model model = bench().build(slope(3, {1e4, 0.3, 1.0, phi, phi}, 10.0, 1.0).text());
+    return make_ground(model, 0, 0, nullptr, room).domain.triangles.size();
+  };
+  EXPECT_EQ(triangles(20.0, 0), 36U);
+  EXPECT_EQ(triangles(20.0, 100), 36U);
+  EXPECT_EQ(triangles(20.0, 40), 18U);
+  EXPECT_EQ(triangles(0.0, 40), 36U);
 }
 
 // The material's psi becomes phi before elements and law are chosen.
