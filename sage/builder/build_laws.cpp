@@ -324,6 +324,11 @@ bool read_parameter(Builder& b, const CardView& card, const Group& group, Initia
     return refuse(
         b, card.where(named ? "parameter" : "v1"),
         group_name(group) + ": " + material.law_name + " has no parameter " + name + "; known: " + all);
+  if (initial.value[2] == 0.0 && initial.value[3] == 0.0)
+    return refuse(
+        b, card.where("v3"),
+        "the parameter grows by nothing: kind 7 needs value 3, its growth with depth, or value 4, its "
+        "growth with the effective vertical stress");
   if (initial.value[3] != 0.0 && !group.solid())
     return refuse(b, card.where("v4"),
                   group_name(group) + " is no solid: its parameters can't grow with the stress of the ground");
@@ -347,6 +352,8 @@ bool read_law_card(Builder& b, const CardView& card, bool in_stage, InitialStres
     return refuse(b, card.where("kind"),
                   "a lock-off (kind 5) or another material (kind 6) belongs on an initial card of a stage");
   if (initial.kind == InitialKind::material) return read_material(b, card, group, initial);
+  if (card.blank("v1"))
+    return refuse(b, card.where("v1"), "a lock-off (kind 5) needs its force, value 1; compression is positive");
   if (group.structure() && group.entry->law_size == 1) return true;
   return refuse(
       b, card.where("kind"),

@@ -1145,7 +1145,7 @@ constexpr MessageEntry kMessages[] = {
      "A parameter that grows with depth leaves the range of its law somewhere in the group, or a law with many "
      "history variables follows another one.",
      "Change the growth or the level, so that the parameter stays in its range in the whole group."},
-    {"S612", "the stress lies outside the yield surface of the law that comes into force",
+    {"S612", "the stress lies outside the yield surface of a new law",
      "A group goes on with another material, and the stress that it keeps is more than that one carries. At "
      "the "
      "start of the stage the stress of such points returns to the surface, as an elastic trial stress would; "

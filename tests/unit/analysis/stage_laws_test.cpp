@@ -342,6 +342,10 @@ TEST(StageLaws, CardsThatDoNotFitAreRejected) {
   EXPECT_EQ(
       first_error(with("[[initial]]\ngroup = \"soil\"\nkind = \"material\"\nvalues = [2]\n" + press("", 1.0))),
       "S614");
+  EXPECT_EQ(first_error(with(stage + "kind = \"parameter\", values = [1, 0, 0]}]\n")), "S614");
+  std::string blank = prop_and_anchor(false, -10.0, -9.0, -40.0);
+  blank.replace(blank.find(", values = [-40]"), 16, "");
+  EXPECT_EQ(first_error(blank), "S614");
   std::string loose = prop_and_anchor(false, -10.0, -9.0, -40.0);
   loose.replace(loose.find("{first = 1, last = 3, step = 2,"), 31, "{first = 1, ");
   EXPECT_EQ(first_error(loose), "S613");

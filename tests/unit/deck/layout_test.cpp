@@ -253,7 +253,10 @@ TEST(WideLayout, IsSage1WithWideFields) {
     EXPECT_EQ(wide.cards[i].spec.fields.size(), narrow.cards[i].spec.fields.size() + more);
     std::string format = wide_format(narrow.cards[i].spec.format);
     if (more > 0)
-      format.insert(format.size() - 1, more == 7 ? ",7I10" : more == 1 ? ",I10" : ",2F20.0,I10,2F20.0");
+      format.insert(format.size() - 1, more == 7   ? ",7I10"
+                                       : more == 6 ? ",2F20.0,I10,2F20.0,I10"
+                                       : more == 2 ? ",I10,A40"
+                                                   : ",I10");
     EXPECT_EQ(wide.cards[i].spec.format, format);
   }
   EXPECT_NE(layout_manual(wide).find("| 31-50 | `x` | real | x or radius | length |"), std::string::npos);
