@@ -305,6 +305,7 @@ void plot_columns(const PlotOptions& options) {
   for (const std::string& text : asked) {
     const Panel panel = panel_from(text);
     sheet.panels.push_back(plot_of(sources, panel, labelled));
+    sheet.panels.back().log_x = options.log_x;
     drawn.push_back(panel.x);
     drawn.insert(drawn.end(), panel.y.begin(), panel.y.end());
   }

@@ -67,6 +67,7 @@ struct OptionPlace {
 constexpr const char *kOfPictures = "pictures (--picture)", *kOfStates = "--picture, --line or --interface";
 constexpr OptionPlace kPlaces[] = {
     {"--xy", kCurves, "curves of tables, without --picture, --line and --interface"},
+    {"--log-x", kCurves, "curves of tables, without --picture, --line and --interface"},
     {"--at", kStates, kOfStates},
     {"--increment", kStates, kOfStates},
     {"--sheet", kSheet, kOfPictures},
@@ -156,6 +157,8 @@ void add_curve_options(CLI::App& parser, PlotOptions& options) {
           "is a panel.  Default: stress and ratio against strain for a triaxial report, load against "
           "displacement for a node report (a footing).  The error of an unknown name lists the known ones")
       ->allow_extra_args(false)
+      ->group(kGroupCurves);
+  parser.add_flag("--log-x", options.log_x, "logarithms along the horizontal axis, as of time")
       ->group(kGroupCurves);
 }
 

@@ -18,6 +18,7 @@ struct PlotOptions {
   std::vector<std::string> pictures;
   std::vector<std::string> at;
   std::vector<std::string> xy;  // X:Y[,Y...]
+  bool log_x = false;           // of those
   std::string line;             // X,Y:X,Y; empty = none
   bool interface = false;
   PictureOptions look;

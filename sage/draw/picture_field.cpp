@@ -55,6 +55,33 @@ void set_range(FieldParts& parts, const Model& model, const Solution& s, const N
   parts.most = std::move(most);
 }
 
+// Of a corner at a place of the parent shape, for what is linear between corners.
+double corner_share(const ElementEntry& entry, const std::array<double, 2>& at, std::size_t corner) {
+  const auto& [xi, eta] = at;
+  if (entry.triangle()) return corner == 0 ? 1.0 - xi - eta : at[corner - 1];
+  const auto& [corner_xi, corner_eta] = entry.parent_nodes[corner];
+  return 0.25 * (1.0 + xi * corner_xi) * (1.0 + eta * corner_eta);
+}
+
+// The excess pressure of pore water is linear between the corners, which alone have it.
+void fill_between_corners(const Model& model, const NodalLayout& layout, Eigen::MatrixXd& at) {
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    const std::vector<int>& entries = layout.of_group[g];
+    if (entries.empty() || group.entry == nullptr || !group.entry->has_pores()) continue;
+    const std::size_t nodes = group.node_count();
+    const auto corners = static_cast<std::size_t>(group.entry->corners);
+    for (std::size_t first = 0; first < entries.size(); first += nodes)
+      for (std::size_t i = corners; i < nodes; ++i) {
+        auto value = at.col(entries[first + i]);
+        if (!value.array().isNaN().all()) continue;
+        value.setZero();
+        for (std::size_t c = 0; c < corners; ++c)
+          value += corner_share(*group.entry, group.entry->parent_nodes[i], c) * at.col(entries[first + c]);
+      }
+  }
+}
+
 }  // namespace
 
 std::string unknown_field(const FieldTable& table, std::string_view name, bool pictures) {
@@ -96,6 +123,7 @@ FieldParts field_parts(const Model& model, const Solution& s, const NodalLayout&
     const NodeViews nodes(model, s);
     for (Eigen::Index e = 0; e < entries; ++e)
       carry(field, nodes.at(layout.node[static_cast<std::size_t>(e)]), parts.at.col(e).data());
+    fill_between_corners(model, layout, parts.at);
   } else {
     const std::vector<double> values = nodal_average(model, s, layout, {&field}, rule);
     parts.at = Eigen::Map<const Eigen::MatrixXd>(values.data(), parts.components, entries);
