@@ -284,6 +284,36 @@ TEST(Plot, WaterIsDrawnWhereItFlows) {
   EXPECT_NE(net.err.find("head is its field"), std::string::npos) << net.err;
 }
 
+// Excess pressures belong to corners and are linear between them.  At the drained top they are zero, and they fall with time
+// everywhere; settlement over the logarithm of time is one command, too.
+TEST(Plot, IsochronesAndSettlementOverTime) {
+  const fs::path folder = empty_folder("plot_isochrones");
+  const Finished run =
+      sagefe(folder, "run " + std::string(SAGE_SOURCE_DIR) +
+                         "/legacy_inputs/models/embankment_on_clay.sage.toml -q --result --states 5:12,5:16");
+  if (without_module(run)) GTEST_SKIP() << "built without HDF5";
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Finished plot =
+      sagefe(folder,
+             "plot out/embankment_on_clay.h5 --picture excess_pressure --line 1,-10:1,0 --at 4 "
+             "--at 5:12 --at 5:16");
+  ASSERT_EQ(plot.exit_code, 0) << plot.err;
+  const auto lines = lines_of(read(folder / "out/embankment_on_clay_line.svg"));
+  ASSERT_EQ(lines.size(), 3u);
+  for (const std::vector<double>& line : lines) {
+    ASSERT_EQ(line.size(), 201u);
+    EXPECT_NEAR(line.back(), lines[0].back(), 0.05) << "px: zero at the top";
+  }
+  for (std::size_t i = 0; i < 190; ++i) {  // px down
+    EXPECT_LT(lines[0][i], lines[1][i]) << i;
+    EXPECT_LT(lines[1][i], lines[2][i]) << i;
+  }
+  const Finished curve = sagefe(folder, "plot out/embankment_on_clay.report1.csv --xy time:uy --log-x");
+  ASSERT_EQ(curve.exit_code, 0) << curve.err;
+  const Finished refused = sagefe(folder, "plot out/embankment_on_clay.h5 --picture excess_pressure --log-x");
+  EXPECT_NE(refused.err.find("--log-x is for"), std::string::npos) << refused.err;
+}
+
 // Before anything is computed: a deck of flow alone has no stress, and water has no strength.
 TEST(Plot, RunRefusesPicturesThatWouldBeEmpty) {
   const fs::path folder = empty_folder("plot_empty");

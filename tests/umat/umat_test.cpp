@@ -142,6 +142,32 @@ TEST(Umat, DruckerPragerIsTheNativeLawInTheChaptersDecks) {
   }
 }
 
+// As the skeleton of consolidating clay: lifts, waits, and pore pressures of its own.
+TEST(Umat, DruckerPragerIsTheNativeLawInConsolidatingClay) {
+  const fs::path folder = empty_folder("umat_pores");
+  std::string model = read(std::string(SAGE_SOURCE_DIR) + "/legacy_inputs/models/embankment_on_clay.sage.toml");
+  for (const auto& [word, other] :
+       {std::pair{"mohr_coulomb", "drucker_prager"}, {"dilation_angle = 0\n", ""}}) {
+    const std::size_t at = model.find(word);
+    ASSERT_NE(at, std::string::npos) << word;
+    model.replace(at, std::string(word).size(), other);
+  }
+  write(folder / "native.sage.toml", model);
+  fs::create_directory(folder / "native");
+  const Finished converted = sagefe(folder, "convert native.sage.toml native/deck.dat");
+  ASSERT_EQ(converted.exit_code, 0) << converted.err;
+  std::string deck = read(folder / "native" / "deck.dat");
+  const std::size_t values = deck.find("               4000."),
+                    card_at = deck.rfind("\n", deck.rfind("soft clay", values)) + 1,
+                    end = deck.find("*", values);
+  const std::string blank(20, ' ');
+  std::string umat = "         1       100         8                  6.soft clay\n";
+  for (const std::string value : {"4.", "0.", "0.", "0.", "4000.", ".3", "5.", "25."})
+    umat += blank.substr(value.size()) + value;
+  deck.replace(card_at, end - card_at, umat + "\n");
+  expect_same_reports(folder, deck, "native/deck.dat", library("drucker_prager"));
+}
+
 // Element, point, place, increment, times and size of the element as SDV1 ... SDV8, at the last increment of ten.
 TEST(Umat, ContextIsTrue) {
   const fs::path folder = empty_folder("umat_context");

@@ -122,13 +122,15 @@ void layers(Sweep& s) {
 }  // namespace
 
 std::vector<Row> pore_rows() {
-  const std::string family = "Consolidation", exact = "one step of the discrete equations, solved densely; 1e-9";
-  return {{"pore-permeability", family, "permeability over twelve decades", exact, "k", true, permeabilities},
-          {"pore-steps", family, "time steps over ten decades", exact, "step, h^2/c = 1/58", true, step_sizes},
-          {"pore-poisson", family, "Poisson's ratio of the skeleton up to 1/2", exact, "1/2 - nu", true, skeletons},
-          {"pore-bulk", family, "water from soft to incompressible", exact, "bulk of the water over E", true,
-           water_bulks},
-          {"pore-layers", family, "layers of permeabilities far apart", exact, "k above / k below", true, layers}};
+  const std::string family = "Consolidation",
+                    exact = "one step of the discrete equations, solved densely; 1e-9";
+  return {
+      {"pore-permeability", family, "permeability over twelve decades", exact, "k", true, permeabilities},
+      {"pore-steps", family, "time steps over ten decades", exact, "step, h^2/c = 1/58", true, step_sizes},
+      {"pore-poisson", family, "Poisson's ratio of the skeleton up to 1/2", exact, "1/2 - nu", true, skeletons},
+      {"pore-bulk", family, "water from soft to incompressible", exact, "bulk of the water over E", true,
+       water_bulks},
+      {"pore-layers", family, "layers of permeabilities far apart", exact, "k above / k below", true, layers}};
 }
 
 }  // namespace sage::stress
