@@ -85,10 +85,7 @@ int run_rows(const StressOptions& options, const Catalogue& catalogue) {
     std::fflush(stdout);
   }
   if (Json* json = answer()) json->update({{"row_count", rows.size()}, {"failed", failed}});
-  fmt::print(
-      "{} rows, {} failed. Digits lost = log10(error / 1.1e-16) of 16. Not part of the program, so not tested: "
-      "consolidation.\n",
-      rows.size(), failed);
+  fmt::print("{} rows, {} failed. Digits lost = log10(error / 1.1e-16) of 16.\n", rows.size(), failed);
   if (!options.csv.empty()) write_file(options.csv, stress::to_csv(rows, results));
   if (!options.page.empty()) {
     const std::filesystem::path page(options.page), folder = page.parent_path() / page.stem();

@@ -140,7 +140,6 @@ std::string to_markdown(const std::vector<Row>& rows, const std::vector<RowResul
       "diagnostic "
       "are a FAIL. Digits lost = log10(error / 1.1e-16), of 16. Errors are relative to the reference of the "
       "row.");
-  page.prose("Not tested: small time steps of consolidation.");
   page.prose(fmt::format("{} rows, {} failed.", rows.size(), failed));
   page.table({"row", "what is swept", "trials", "digits lost", "verdict"});
   for (std::size_t i = 0; i < rows.size(); ++i)
