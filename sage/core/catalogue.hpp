@@ -29,7 +29,7 @@ enum class ParameterRole {
   poissons_ratio,
   modulus,         // any other stiffness of a solid, stress
   modulus_number,  // the same as a multiple of the atmospheric pressure
-  strength,        // shear or tensile strength without confinement, stress
+  strength,        // shear or tensile, without confinement, stress; of structures a force or moment
   friction_angle,  // degrees
   unit_weight,     // of a law that has one besides the material card's
   dilation_angle,  // degrees; of the friction angle before it in the table
