@@ -170,6 +170,12 @@ class TableMaker {
 void make_table(Builder& b, int g, const std::vector<Phase>& phases) {
   Model& model = b.model;
   Group& group = model.groups[static_cast<std::size_t>(g)];
+  const Material& own = model.material_of(group);
+  if (own.entry->own_start && own.entry->own_start(own.parameters, own.name).at)
+    return b.error("S611", phases.back().where,
+                   group_name(group) +
+                       ": the routine of its material states its first values, and so its law can't "
+                       "differ by point or stage");
   Material twin = twin_of(model.material_of(group), model.units);
   twin.twin = true;
   TableMaker maker(model, group, twin);

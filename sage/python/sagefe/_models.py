@@ -79,7 +79,10 @@ class Pressure:
 
 
 class Initial:
-    """Initial stress of a group: kind "uniform", "geostatic", "zero", "traction" or "history", as on the card."""
+    """Initial stress of a group, as on the card.
+
+    kind: "uniform", "geostatic", "zero", "traction", "history", "lock off", "material" or "parameter".
+    """
 
     def __init__(self, group: int, kind: str = "uniform", values: Sequence[float] = ()) -> None:
         self.group = group
