@@ -12,6 +12,7 @@ namespace sage {
 void DampedSteps::open_stage() {
   const std::vector<GroupData>& groups = run_.assembly().groups();
   of_solids_.assign(static_cast<std::size_t>(run_.assembly().dof_map().displacements()), 0);
+  stage_u_ = run_.state.u;
   has_walls_ = false;
   const bool ground =
       std::ranges::any_of(groups, [](const GroupData& data) { return data.active && data.group->solid(); });
@@ -92,7 +93,8 @@ NewtonStep DampedSteps::attempt(StepReport& report, double from, double to, cons
 
 namespace {
 
-// A soft spring at a wall's tip may hold ground that slipped by more than the equations of small strain can tell.
+// A soft spring at a wall's tip may hold ground that slipped by more than the equations of small strain can tell, since the
+// stage began: in short steps each slips by little.
 bool has_slipped_away(const Eigen::VectorXd& motion, const std::vector<char>& of_solids, double size) {
   constexpr double kFar = 0.1;  // of the model's size
   double most = 0.0;
@@ -125,7 +127,7 @@ NewtonStep DampedSteps::creep(StepReport& report, double to, double damping_fall
   }
   step.crept = true;
   if (step.outcome == StepOutcome::converged) {
-    if (!has_slipped_away(state.u + state.du - start_u, of_solids_, run_.extent.size())) return step;
+    if (!has_slipped_away(state.u + state.du - stage_u_, of_solids_, run_.extent.size())) return step;
     step.outcome = StepOutcome::not_converged;
     step.flows = true;
   }

@@ -34,6 +34,7 @@ class DampedSteps {
   const RunParts& run_;
   Stepper& stepper_;
   std::vector<char> of_solids_;
+  Eigen::VectorXd stage_u_;  // at the start of the stage
   bool has_walls_ = false, is_trial_ = false;
 };
 
