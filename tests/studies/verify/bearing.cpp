@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "sage/bounds/bounds.hpp"
+#include "sage/bounds/model_domain.hpp"
 #include "tests/studies/scenes/footing.hpp"
 #include "tests/studies/verify/cases.hpp"
 #include "tests/studies/verify/fields.hpp"
@@ -81,6 +83,28 @@ void friction(Record& record) {
            (scenes::prandtl_Nq(phi) - 1) / std::tan(phi * kRadiansPerDegree), 0.03);
 }
 
+// Rigorous bounds on the same strip: the exact load must lie between them.
+void strip_bounds(Record& record) {
+  Footing footing;
+  footing.rough = true;
+  footing.inside = 5;
+  footing.outside = 7;
+  footing.down = 7;
+  footing.build();
+  footing.press(0.15, 1);
+  const Model model = record.bench().build(footing.deck.text());
+  bounds::Options options;
+  options.elements = 1500;
+  const bounds::Bounds found = bounds::find_bounds(bounds::make_ground(model, 0, 0).domain, options);
+  if (!found.lower.value || !found.upper.value)
+    throw AnalysisError("S575", found.lower.reason + found.upper.reason);
+  const double exact = 2.0 + kPi;
+  record.within(Where::plane_strain, "lower bound over the exact load, at most 1", *found.lower.value / exact,
+                0.99, 0.01);
+  record.within(Where::plane_strain, "upper bound over the exact load, at least 1", *found.upper.value / exact,
+                1.01, 0.01);
+}
+
 }  // namespace
 
 Section bearing_cases() {
@@ -92,6 +116,8 @@ Section bearing_cases() {
           {"bearing.load_control", "the same under a growing load: bracket of the limit load",
            "Prandtl: N_c = 2 + pi", Grade::exact, "coarse mesh of 5 quad8 under the half width: 3 %",
            load_control},
+          {"bearing.bounds", "strip on Tresca clay: bounds by limit analysis", "Prandtl: N_c = 2 + pi",
+           Grade::exact, "the exact load between the bounds, 2 % from each, 1500 triangles", strip_bounds},
           {"bearing.circle", "circle on Tresca clay",
            "5.689 smooth, 6.048 rough: Cox, Eason & Hopkins 1961; Eason & Shield 1960; Houlsby & Wroth 1983",
            Grade::published, "approached from above: 1.5 %; a plateau", circle},

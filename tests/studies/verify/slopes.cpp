@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "sage/bounds/bounds.hpp"
+#include "sage/bounds/model_domain.hpp"
 #include "sage/safety/safety.hpp"
 #include "tests/studies/verify/cases.hpp"
 #include "tests/studies/verify/fields.hpp"
@@ -71,32 +73,55 @@ void acads(Record& record) {
               0.03);
 }
 
-// Within -1 % and +2 % of the log-spiral through the toe, an upper bound for associated flow: elements of finite size
-// smear the slip line.
-void log_spirals(Record& record) {
-  struct Slope {
-    const char* name;
-    double run, phi, c, weight, H, factor;
-  };
-  for (const Slope& slope :
-       {Slope{"2:1, phi = 20, c = .05 gamma H", 2.0, 20.0, 10.0, 20.0, 10.0, 1.36821452},
-        Slope{"1:1, phi = 30, c = .0694 gamma H", 1.0, 30.0, 10.0, 18.0, 8.0, 1.36482236}}) {
+// Associated flow on firm ground; factor: of the log-spiral through the toe, an upper bound.
+struct SpiralSlope {
+  const char* name;
+  double run, phi, c, weight, H, factor;
+
+  DeckWriter deck(int columns, int rows) const {
     Block block;
     block.cell = Cell::quad8;
-    block.columns = 24;
-    block.rows = 16;
+    block.columns = columns;
+    block.rows = rows;
     block.straight = true;
-    block.place = [&](double s, double t) -> Vector2 {
-      return {s * slope.H * (slope.run + 1.2 - slope.run * t), slope.H * t};
-    };
+    block.place = [this](double s, double t) -> Vector2 { return {s * H * (run + 1.2 - run * t), H * t}; };
     DeckWriter deck(1);
     block.write_nodes(deck);
-    deck.material(1, 4, {1e5, 0.3, slope.c, slope.phi, slope.phi}, slope.weight);
+    deck.material(1, 4, {1e5, 0.3, c, phi, phi}, weight);
     deck.group(1, 2, 1, 1);
     block.write_elements(deck, 1);
     for (int n : block.left()) deck.fix(n, 1, 0);
     for (int n : block.bottom()) deck.fix(n, 1, 1);
     deck.stage().gravity_y = -1.0;
+    return deck;
+  }
+};
+constexpr SpiralSlope kSpiralSlopes[] = {
+    {"2:1, phi = 20, c = .05 gamma H", 2.0, 20.0, 10.0, 20.0, 10.0, 1.36821452},
+    {"1:1, phi = 30, c = .0694 gamma H", 1.0, 30.0, 10.0, 18.0, 8.0, 1.36482236}};
+
+// Bounds by limit analysis: the lower one lies below the spiral, and both are close to it.  Of the steeper slope: the
+// spiral of the other runs below the toe, where this ground is firm.
+void slope_bounds(Record& record) {
+  const SpiralSlope& slope = kSpiralSlopes[1];
+  const Model model = record.bench().build(slope.deck(12, 8).text());
+  bounds::Options options;
+  options.quantity = bounds::Quantity::strength;
+  options.elements = 1000;
+  const bounds::Bounds found = bounds::find_bounds(bounds::make_ground(model, 0, 0).domain, options);
+  if (!found.lower.value || !found.upper.value)
+    throw AnalysisError("S575", found.lower.reason + found.upper.reason);
+  record.within(Where::plane_strain, "lower bound over the log spiral, at most 1",
+                *found.lower.value / slope.factor, 0.99, 0.01);
+  record.within(Where::plane_strain, "upper over lower bound", *found.upper.value / *found.lower.value, 1.015,
+                0.015);
+}
+
+// Within -1 % and +2 % of the log-spiral through the toe, an upper bound for associated flow: elements of finite size
+// smear the slip line.
+void log_spirals(Record& record) {
+  for (const SpiralSlope& slope : kSpiralSlopes) {
+    const DeckWriter deck = slope.deck(24, 16);
     safety::Options options;
     options.limits.tolerance = 0.004;
     Model model = record.bench().build(deck.text());
@@ -201,6 +226,9 @@ Section slope_cases() {
            "3 %: two digits are printed; 12 x 8 quad8, F within .01 (psi = 0: .02)", griffiths_lane},
           {"slope.acads_1a", "ACADS example 1(a)", "1.00, Giam & Donald 1989: limit equilibrium, so psi = phi",
            Grade::published, "3 %; 20 x 8 quad8, F within .01", acads},
+          {"slope.bounds", "slope 1:1 by bounds of limit analysis",
+           "log-spiral through the toe, an upper bound", Grade::exact,
+           "lower bound below the spiral, bounds 3 % apart, 1000 triangles", slope_bounds},
           {"slope.log_spirals", "slopes by sagefe safety, psi = phi",
            "log-spiral through the toe, minimised to 1e-12 (Chen 1975): 1.36821452, 1.36482236",
            Grade::computed, "-1 to +2 % of the upper bound; 24 x 16 quad8, bracket .004", log_spirals},
