@@ -329,6 +329,43 @@ TEST(StageLaws, ASafetyFactorDividesStrengthsPointByPoint) {
   EXPECT_LE(*found.upper - *found.lower, 0.0201);
 }
 
+// A block of 1 m x .5 m on a joint of 30 degrees.  Gravity 1 - k_v down and k_h across: it slides where k_h / (1 - k_v) is
+// above tan 30, and its factor of safety is tan 30 (1 - k_v) / k_h.
+TEST(StageLaws, ABlockSlidesUnderAPseudoStaticLoad) {
+  const auto block = [](double k_h, double k_v) {
+    return head(false) +
+           "node = [{x = 0.0, y = 0.0}, {x = 1.0, y = 0.0}, {x = 1.0, y = 0.0}, {x = 0.0, y = 0.0}, {x = 1.0, "
+           "y = "
+           "0.5}, {x = 0.0, y = 0.5}]\n"
+           "element = [{group = \"block\", nodes = [4, 3, 5, 6]}, {group = \"joint\", nodes = [1, 2, 3, 4]}]\n"
+           "fixity = [{first = 1, last = 2, x = \"fixed\", y = \"fixed\"}]\n" +
+           kUnits +
+           "[[material]]\nname = \"rock\"\nlaw = \"linear_elastic\"\nunit_weight = 20.0\nyoungs_modulus = 1e5\n"
+           "poissons_ratio = 0.2\n"
+           "[[material]]\nname = \"base\"\nlaw = \"dilating_joint\"\nnormal_stiffness = 1e5\nshear_stiffness = "
+           "1e5\n"
+           "cohesion = 0.0\nfriction_angle = 30\n"
+           "[[group]]\nname = \"block\"\nelement = \"quad4\"\nmaterial = \"rock\"\n"
+           "[[group]]\nname = \"joint\"\nelement = \"interface4\"\nmaterial = \"base\"\n"
+           "[[stage]]\ngravity_y = -1.0\n" +
+           fmt::format("[[stage]]\nincrements = 4\ngravity_x = {:.6f}\ngravity_y = {:.6f}\n", k_h, k_v);
+  };
+  const double tangent = std::tan(std::numbers::pi / 6.0), k_v = 0.1;
+  EXPECT_TRUE(run_model(block(0.99 * tangent * (1.0 - k_v), k_v)).completed());
+  EXPECT_FALSE(run_model(block(1.01 * tangent * (1.0 - k_v), k_v)).completed());
+  Model model = model_of(block(0.3, k_v));
+  safety::Options options;
+  options.interfaces = true;
+  options.limits.tolerance = 0.02;
+  const safety::Safety found =
+      safety::find_safety(model, workbench().catalogue(), workbench().settings(), options);
+  const double factor = tangent * (1.0 - k_v) / 0.3;
+  ASSERT_TRUE(found.lower && found.upper);
+  EXPECT_LE(*found.lower, factor);
+  EXPECT_GE(*found.upper, factor);
+  EXPECT_LE(*found.upper - *found.lower, 0.0201);
+}
+
 TEST(StageLaws, CardsThatDoNotFitAreRejected) {
   const auto with = [](const std::string& cards) {
     return column(false, elastic("first", 1000.0) + elastic("other", 4000.0), cards);
