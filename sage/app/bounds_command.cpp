@@ -153,7 +153,7 @@ bounds::OtherAnswer answer_of(const BoundsOptions& options, const Catalogue& cat
   if (found.lower.value)
     search.limits.start = std::clamp(0.9 * *found.lower.value, search.limits.smallest, 1.0);
   search.stage = options.stage - 1;
-  search.interfaces = true;  // as the bounds do
+  search.reduce = {ModelPart::soil, ModelPart::joints};  // as the bounds do
   safety::Safety safety;
   with_umat_output(options.deck, [&] {
     safety = safety::find_safety(model, catalogue, run_settings(options, task), search);

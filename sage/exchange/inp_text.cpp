@@ -232,10 +232,13 @@ class InpWriter {
     if (stage.pores != usual.pores || stage.theta != usual.theta || stage.grading != usual.grading)
       warning("stage " + std::to_string(stage.number) +
               ": its pore water, theta and the grading of its increments are left out");
+    if (stage.resets_displacements)
+      warning("stage " + std::to_string(stage.number) + ": its reset of displacements is left out");
     if (!stage.births.empty() || !stage.deaths.empty())
       warning("stage " + std::to_string(stage.number) + ": births and deaths of groups are left out");
     if (!stage.initials.empty())
-      warning("stage " + std::to_string(stage.number) + ": initial stresses and histories are left out");
+      warning("stage " + std::to_string(stage.number) +
+              ": initial stresses, histories and changes of laws are left out");
     boundary(stage, &stage == &model_.stages.front());
     if (!stage.loads.empty()) text_ += "*CLOAD\n";
     for (const NodalLoad& load : stage.loads)
@@ -297,8 +300,11 @@ class InpWriter {
 std::string inp_text(const Model& model, Diagnostics& diagnostics) {
   warn_of_unknowns(model, "CalculiX", diagnostics);
   if (!model.initials.empty())
-    diagnostics.add(
-        {Severity::warning, "S720", {model.file, 0, 0, 0}, "initial stresses and histories are left out", {}});
+    diagnostics.add({Severity::warning,
+                     "S720",
+                     {model.file, 0, 0, 0},
+                     "initial stresses, histories and changes of laws are left out",
+                     {}});
   return InpWriter(model, diagnostics).text();
 }
 

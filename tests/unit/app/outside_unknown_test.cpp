@@ -15,6 +15,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/builder/build_model.hpp"
 #include "sage/conformance/element_cases.hpp"
+#include "sage/core/solver_extensions.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/model/dof_map.hpp"

@@ -229,6 +229,14 @@ const std::vector<Row>& rows() {
          m.initials.push_back(start(InitialKind::history, {1.0, 0.01, kBlank, kBlank, kBlank, kBlank}));
        },
        mohr_coulomb},
+      {"growth of a parameter",
+       {"", "initial stress", "changes of laws"},
+       [](Model& m) {
+         m.initials.push_back(start(InitialKind::parameter, {1.0, 0.0, 50.0, 0.0}));
+       }},
+      {"displacements from zero",
+       {"", kStages, "reset of displacements"},
+       [](Model& m) { first(m).resets_displacements = true; }},
       {"stage title", {"", kStages, ""}, [](Model& m) { first(m).title = "filling"; }},
       {"increments", {"", kStages, ""}, [](Model& m) { first(m).increments = 4; }},
       {"duration", {"", kStages, ""}, [](Model& m) { first(m).duration = 3.0; }},
@@ -406,12 +414,12 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 }
 [[maybe_unused]] void known(const Material& one) {
   [[maybe_unused]] const auto& [number, name, code, law_name, entry, parameters, unit_weight, law, where,
-                                undrained] = one;
+                                undrained, twin, variants] = one;
 }
 [[maybe_unused]] void known(const Group& one) {
   [[maybe_unused]] const auto& [number, name, element_code, formulation, element_name, entry, element, material,
-                                second_material, element_numbers, element_lines, nodes, overlay, where,
-                                excess] = one;
+                                second_material, element_numbers, element_lines, nodes, overlay, where, excess,
+                                choices] = one;
 }
 [[maybe_unused]] void known(const WaterCard& one) {
   [[maybe_unused]] const auto& [stage, group, kind, action, value, line, nodes, where] = one;
@@ -429,7 +437,7 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [number, title, increments, duration, pores, theta, grading, method,
                                 max_iterations, output_every, output_at, tolerance, gravity, fixities, loads,
                                 field_fixities, field_loads, exits, pressures, births, deaths, initials,
-                                strength_factor, where] = one;
+                                strength_factor, resets_displacements, where] = one;
 }
 [[maybe_unused]] void known(const NodalLoad& one) {
   [[maybe_unused]] const auto& [node, force, line] = one;
