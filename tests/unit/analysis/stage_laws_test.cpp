@@ -355,7 +355,7 @@ TEST(StageLaws, ABlockSlidesUnderAPseudoStaticLoad) {
   EXPECT_FALSE(run_model(block(1.01 * tangent * (1.0 - k_v), k_v)).completed());
   Model model = model_of(block(0.3, k_v));
   safety::Options options;
-  options.interfaces = true;
+  options.reduce = {ModelPart::soil, ModelPart::joints};
   options.limits.tolerance = 0.02;
   const safety::Safety found =
       safety::find_safety(model, workbench().catalogue(), workbench().settings(), options);
