@@ -391,14 +391,9 @@ Bounds find_bounds(const Domain& domain, const Options& options) {
   all.domain = domain;
   if (options.elements > 0) fan_out(all.domain, 2);
   double factor = 1.0;
-  Bounds before;  // on the mesh before
+  Bounds best;  // on the finest mesh so far that gave both
   for (bool last = static_cast<int>(all.domain.triangles.size()) >= options.elements;;) {
     solve_round(all, options, last, factor);
-    // What a coarser mesh proved stays proved.
-    if (before.relative_gap() && !all.relative_gap() && !all.stopped) {
-      before.rounds = std::move(all.rounds);
-      return before;
-    }
     const auto gap = all.relative_gap();
     if (last || all.stopped || all.gap.empty()) break;
     if (gap && *gap <= options.gap && options.quantity == Quantity::load) break;
@@ -406,12 +401,15 @@ Bounds find_bounds(const Domain& domain, const Options& options) {
     // A marked triangle makes two or three more.
     const int most =
         std::max(1, static_cast<int>(std::min(kGrowth * now, 1.0 * options.elements) - now) / 2 + 1);
-    before = all;
+    if (gap) best = all;
     refine(all.domain, mark(all.gap, most));
     last = static_cast<int>(all.domain.triangles.size()) >= 0.95 * options.elements ||
            (gap && *gap <= options.gap);
   }
-  return all;
+  // What a coarser mesh proved stays proved.
+  if (!best.relative_gap() || all.relative_gap() || all.stopped) return all;
+  best.rounds = std::move(all.rounds);
+  return best;
 }
 
 }  // namespace sage::bounds
