@@ -233,6 +233,8 @@ const std::vector<Row>& rows() {
        {"", "initial stress", "changes of laws"},
        [](Model& m) {
          m.initials.push_back(start(InitialKind::parameter, {1.0, 0.0, 50.0, 0.0}));
+         Diagnostics none;
+         m = model_of(sage1_text(m, none));  // with the laws that follow
        }},
       {"displacements from zero",
        {"", kStages, "reset of displacements"},
