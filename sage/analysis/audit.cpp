@@ -33,7 +33,7 @@ EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
                                    const Eigen::VectorXd& u) {
   EquilibriumAudit audit;
   const Eigen::VectorXd& f = assembly.internal_force();
-  double moment_scale = 0.0, scale[2] = {0, 0};
+  double moment_scale = 0.0, extent = 0.0, scale[2] = {0, 0};
   const DofMap& map = assembly.dof_map();
   audit.fields.resize(static_cast<std::size_t>(map.fields()) - 1);
   for (int dof = 0; dof < map.dofs(); ++dof) {
@@ -59,8 +59,11 @@ EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
     audit.moment += force * arm;
     scale[c] += size;
     moment_scale += size * std::abs(arm);
+    extent = std::max(extent, std::abs(arm));
   }
   audit.scale = std::max(scale[0], scale[1]);
+  // Forces whose lines pass through the origin have no moment, but the rounding of the others has.
+  moment_scale = std::max(moment_scale, 1e-3 * audit.scale * extent);
   const bool plane = model.geometry == Geometry::plane_strain;
   if (audit.scale > 0.0) {
     audit.out_of_balance = std::abs(audit.applied[1] + audit.reactions[1]) / audit.scale;

@@ -177,6 +177,22 @@ TEST(RunTimeWarnings, OfReportsCountAsErrorsWithStrict) {
   }
 }
 
+// All forces pass through the origin: their moments are nothing but rounding.
+TEST(RunTimeWarnings, ForcesThroughTheOriginAreInBalance) {
+  DeckWriter deck(1);
+  for (int i = 0; i < 4; ++i) deck.node(i + 1, i % 2, i / 2);
+  deck.material(1, 1, {1e4, 0.3});
+  deck.group(1, 1, 1, 1);
+  deck.element(1, 1, {1, 2, 4, 3});
+  for (const int node : {1, 2}) deck.fix(node, 1, 1);
+  deck.stage().load(3, 0.0, -1.0);
+  const fs::path folder = empty_folder("warn_through_origin");
+  write(folder / "deck.dat", deck.text());
+  const Finished run = sagefe(folder, "run deck.dat -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(says(run, "S524")) << run.err;
+}
+
 // Strips that meet on the axis, and a section whose hoop moment has no limit.
 TEST(Structures, ThatMeanLittleInAxisymmetryAreWarnedOf) {
   const fs::path folder = empty_folder("warn_axis");
