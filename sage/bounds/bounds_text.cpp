@@ -255,13 +255,15 @@ std::string fields_svg(const Model& model, Quantity quantity, const Bounds& foun
   constexpr double kPanel = 620.0, kEdge = 30.0, kTop = 96.0;
   const Frame left(found.domain, kPanel, kEdge, kTop);
   const double step = left.width() + 2.0 * kEdge, down = left.height() + 2.5 * kEdge;
-  const double rows = 1.0 + static_cast<double>((others.size() + 1) / 2);
-  std::string out = svg::open(static_cast<int>(2.0 * step + kEdge), static_cast<int>(kTop + rows * down));
+  const std::size_t rows = 1 + (others.size() + 1) / 2;  // of two panels each
+  const double height = kTop + static_cast<double>(rows) * down;
+  std::string out = svg::open(static_cast<int>(2.0 * step + kEdge), static_cast<int>(height));
   svg::text_within(out, kEdge, 24.0, title_of(model), svg::kTitleFont, 2.0 * step, "start", svg::kBold);
   svg::text(out, kEdge, 46.0, quantity_words(found.domain, quantity) + " " + bracket_words(found), svg::kFont,
             "start");
   const auto panel = [&](std::size_t place, const std::string& caption) {
-    const double x = kEdge + (place % 2 == 0 ? 0.0 : step), y = kTop + down * static_cast<double>(place / 2);
+    const std::size_t row = place / 2;
+    const double x = kEdge + (place % 2 == 0 ? 0.0 : step), y = kTop + down * static_cast<double>(row);
     svg::text_within(out, x, y - 20.0, caption, svg::kFont, left.width() + kEdge, "start");
     return Frame(found.domain, kPanel, x, y);
   };
