@@ -167,19 +167,20 @@ bounds::OtherAnswer answer_of(const BoundsOptions& options, const Catalogue& cat
 }
 
 // With psi = phi, and with the deck's psi where that is another.
+// model: of the deck; the search for a factor changes those that it is given.
 std::vector<bounds::OtherAnswer> finite_elements(const BoundsOptions& options, const Catalogue& catalogue,
+                                                 const Deck& deck, const Model& model,
                                                  const bounds::Bounds& found, Task& task) {
   std::vector<bounds::OtherAnswer> answers;
   if (!options.safety || found.stopped) return answers;
-  const Deck deck = read_input(options.deck, options.input);
-  Model own = build_model(deck, catalogue, options.input.build);
   BuildOptions build = options.input.build;
   build.associated = true;
   Model associated = build_model(deck, catalogue, build);
-  const bool two = changes_dilation(own, associated);
+  const bool two = changes_dilation(model, associated);
   answers.push_back(answer_of(options, catalogue, associated, found, task));
   answers.back().name = "finite elements, psi = phi";
   if (!two) return answers;
+  Model own = build_model(deck, catalogue, options.input.build);
   answers.push_back(answer_of(options, catalogue, own, found, task));
   answers.back().name = "finite elements, psi of the deck";
   answers.back().associated = false;
@@ -268,7 +269,8 @@ int run_bounds(BoundsOptions options, const Catalogue& catalogue) {
     const InterruptWatch watch;
     ResultFiles results(options.folder, case_name(options.deck) + ".bounds", {options.deck, 0, "bounds"});
     Task task(options.deck);
-    const Model model = build_model(read_input(options.deck, options.input), catalogue, options.input.build);
+    const Deck deck = read_input(options.deck, options.input);
+    const Model model = build_model(deck, catalogue, options.input.build);
     print_diagnostics(model.diagnostics);
     if (options.input.strict && model.diagnostics.warnings() > 0)
       throw InputError("S906", {options.deck, 0, 0, 0}, "warnings count as errors (--strict)");
@@ -282,7 +284,8 @@ int run_bounds(BoundsOptions options, const Catalogue& catalogue) {
     options.search.quantity = quantity;
     options.search.stop_asked = [] { return interrupted(); };
     const bounds::Bounds found = bounds::find_bounds(ground.domain, options.search);
-    const std::vector<bounds::OtherAnswer> others = finite_elements(options, catalogue, found, task);
+    const std::vector<bounds::OtherAnswer> others =
+        finite_elements(options, catalogue, deck, model, found, task);
     const std::string text = bounds::to_text(model, ground, quantity, found, others);
     const std::vector<std::filesystem::path> files = write_results(options, model, text, found, others);
     say_left(options.deck, results.close());

@@ -36,6 +36,10 @@ int place_of_material(const Model& model, int number) {
   return -1;
 }
 
+bool changes_law(const InitialStress& initial) {
+  return is_about_law(initial.kind) || initial.kind == InitialKind::lock_off;
+}
+
 // Of one group, stage by stage; a single one where nothing changes.
 std::vector<Phase> phases_of(const Model& model, int g) {
   std::vector<Phase> phases;
@@ -52,8 +56,7 @@ std::vector<Phase> phases_of(const Model& model, int g) {
     now.held = false;
     now.stage = static_cast<int>(s);
     for (const InitialStress& initial : model.stages[s].initials) {
-      if (initial.group != g || (!is_about_law(initial.kind) && initial.kind != InitialKind::lock_off))
-        continue;
+      if (initial.group != g || !changes_law(initial)) continue;
       changes = true;
       now.where = initial.where;
       if (initial.kind == InitialKind::lock_off) now.held = true;
@@ -197,10 +200,8 @@ void make_table(Builder& b, int g, const std::vector<Phase>& phases) {
 }
 
 // A bar whose force is held has no stiffness: nothing else holds a node between two of them.
-void check_held_nodes(Builder& b, int stage, const std::vector<const InitialStress*>& cards) {
+void check_held_nodes(Builder& b, const Activity& activity, const std::vector<const InitialStress*>& cards) {
   const Model& model = b.model;
-  Activity activity(model);
-  for (int s = 0; s <= stage; ++s) activity.enter(model.stages[static_cast<std::size_t>(s)]);
   std::set<int> held_groups;
   for (const InitialStress* card : cards) held_groups.insert(card->group);
   std::vector<char> borne(static_cast<std::size_t>(model.mesh.nodes()), 0);
@@ -220,15 +221,10 @@ void check_held_nodes(Builder& b, int stage, const std::vector<const InitialStre
 }
 
 // Groups that are there when their law changes.
-void check_present(Builder& b, int stage) {
-  const Model& model = b.model;
-  Activity activity(model);
-  for (int s = 0; s <= stage; ++s) activity.enter(model.stages[static_cast<std::size_t>(s)]);
-  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+void check_present(Builder& b, const Activity& activity, const Stage& now) {
   for (const InitialStress& initial : now.initials) {
-    const bool changes = is_about_law(initial.kind);
-    if (!changes && initial.kind != InitialKind::lock_off) continue;
-    const Group& group = model.groups[static_cast<std::size_t>(initial.group)];
+    if (!changes_law(initial)) continue;
+    const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
     if (!activity.group[static_cast<std::size_t>(initial.group)])
       b.error("S614", initial.where,
               group_name(group) + " is not there in stage " + std::to_string(now.number) +
@@ -242,8 +238,7 @@ void check_stated_later(Builder& b) {
   for (const Stage& stage : b.model.stages) {
     for (const InitialStress& initial : stage.initials) {
       if (initial.kind == InitialKind::material) changed.try_emplace(initial.group, stage.number);
-      const bool states = initial.kind != InitialKind::lock_off && !is_about_law(initial.kind);
-      if (states && changed.contains(initial.group))
+      if (!changes_law(initial) && changed.contains(initial.group))
         b.error("S614", initial.where,
                 group_name(b.model.groups[static_cast<std::size_t>(initial.group)]) +
                     " goes on with another material from stage " + std::to_string(changed.at(initial.group)) +
@@ -267,10 +262,6 @@ void warn_of_weights(Builder& b) {
                       std::to_string(static_cast<int>(initial.value[0])) + ", with which it goes on");
     }
 }
-
-}  // namespace
-
-namespace {
 
 bool refuse(Builder& b, const SourcePosition& where, const std::string& words, Code code = "S614") {
   b.error(code, where, words);
@@ -367,13 +358,20 @@ bool read_law_card(Builder& b, const CardView& card, bool in_stage, InitialStres
 }
 
 void build_laws(Builder& b) {
+  const Model& model = b.model;
+  if (std::ranges::none_of(model.initials, changes_law) &&
+      std::ranges::none_of(model.stages,
+                           [](const Stage& stage) { return std::ranges::any_of(stage.initials, changes_law); }))
+    return;
   const int before = b.problems.errors();
-  for (std::size_t s = 0; s < b.model.stages.size(); ++s) {
-    check_present(b, static_cast<int>(s));
+  Activity activity(model);
+  for (const Stage& stage : model.stages) {
+    activity.enter(stage);
+    check_present(b, activity, stage);
     std::vector<const InitialStress*> locks;
-    for (const InitialStress& initial : b.model.stages[s].initials)
+    for (const InitialStress& initial : stage.initials)
       if (initial.kind == InitialKind::lock_off) locks.push_back(&initial);
-    if (!locks.empty()) check_held_nodes(b, static_cast<int>(s), locks);
+    if (!locks.empty()) check_held_nodes(b, activity, locks);
   }
   check_stated_later(b);
   warn_of_weights(b);
