@@ -161,8 +161,7 @@ Json safety_json(const SafetyOptions& options, const Meshes& meshes) {
   for (const FactorTrial& trial : found.trials) trials.push_back(trial_json(*last.model, trial));
   Json reduce = Json::array(), fails = Json::array();
   for (const PartName& row : kParts)
-    if (std::ranges::find(options.search.reduce, row.part) != options.search.reduce.end())
-      reduce.push_back(row.name);
+    if (options.search.divides(row.part)) reduce.push_back(row.name);
   for (const safety::Failing& part : found.failing) {
     const Group& group = last.model->groups[part.group];
     fails.push_back({{"part", name_of(part_of(group).value_or(ModelPart::soil))},

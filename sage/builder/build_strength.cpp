@@ -13,9 +13,7 @@ namespace {
 // The material with its strengths divided by a factor.
 Material reduced(const Material& from, double factor, const UnitSystem& units) {
   Material m = twin_of(from, units);
-  const ModelPart part = part_of(*m.entry).value_or(ModelPart::soil);
-  const bool divided = part == ModelPart::soil || part == ModelPart::joints;
-  const bool weaker = divided && reduce_strength(m, {factor, DilationRule::reduced});
+  const bool weaker = is_soil_or_joint(*m.entry) && reduce_strength(m, {factor, DilationRule::reduced});
   m.law = make_law(m, units);
   if (weaker) m.name += (m.name.empty() ? "strength / " : ", strength / ") + rounded_text(factor, 6);
   return m;

@@ -1,6 +1,7 @@
 #include "sage/draw/picture_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -8,6 +9,7 @@
 #include "sage/draw/diagram.hpp"
 #include "sage/draw/flow_net.hpp"
 #include "sage/messages/near_names.hpp"
+#include "sage/model/coarse_shape.hpp"
 
 namespace sage {
 
@@ -55,14 +57,6 @@ void set_range(FieldParts& parts, const Model& model, const Solution& s, const N
   parts.most = std::move(most);
 }
 
-// Of a corner at a place of the parent shape, for what is linear between corners.
-double corner_share(const ElementEntry& entry, const std::array<double, 2>& at, std::size_t corner) {
-  const auto& [xi, eta] = at;
-  if (entry.triangle()) return corner == 0 ? 1.0 - xi - eta : at[corner - 1];
-  const auto& [corner_xi, corner_eta] = entry.parent_nodes[corner];
-  return 0.25 * (1.0 + xi * corner_xi) * (1.0 + eta * corner_eta);
-}
-
 // The excess pressure of pore water is linear between the corners, which alone have it.
 void fill_between_corners(const Model& model, const NodalLayout& layout, Eigen::MatrixXd& at) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
@@ -76,8 +70,8 @@ void fill_between_corners(const Model& model, const NodalLayout& layout, Eigen::
         auto value = at.col(entries[first + i]);
         if (!value.array().isNaN().all()) continue;
         value.setZero();
-        for (std::size_t c = 0; c < corners; ++c)
-          value += corner_share(*group.entry, group.entry->parent_nodes[i], c) * at.col(entries[first + c]);
+        const std::array<double, 4> shares = corner_shares(group.entry->corners, group.entry->parent_nodes[i]);
+        for (std::size_t c = 0; c < corners; ++c) value += shares[c] * at.col(entries[first + c]);
       }
   }
 }

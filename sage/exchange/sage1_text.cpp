@@ -399,9 +399,10 @@ void Sage1Writer::list(const std::vector<int>& groups) {
 
 void Sage1Writer::stage(const Stage& stage) {
   const bool resets = stage.resets_displacements;
-  const bool pores = stage.pores != PoreWater::kept || stage.theta != 1.0 || stage.grading != 1.0 || resets;
-  const bool lasts = stage.duration != 1.0, factor = stage.strength_factor != 0.0 || pores;
-  if ((lasts || factor) && !wide_)
+  // Fields behind one another: each is written where one behind it is.
+  const bool pores = resets || stage.pores != PoreWater::kept || stage.theta != 1.0 || stage.grading != 1.0;
+  const bool factor = pores || stage.strength_factor != 0.0, lasts = factor || stage.duration != 1.0;
+  if (lasts && !wide_)
     throw TooWide{resets ? "of the reset of displacements" : "of the stage's duration or strength factor"};
   // A '*' in column 1 would make the title a comment.
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
@@ -417,7 +418,7 @@ void Sage1Writer::stage(const Stage& stage) {
     integer(value);
   for (std::size_t count : counts) integer(static_cast<long>(count));
   for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);
-  if (lasts || factor) real(stage.duration);
+  if (lasts) real(stage.duration);
   if (factor) real(stage.strength_factor);
   if (pores) {
     integer(static_cast<long>(stage.pores));

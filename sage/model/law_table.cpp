@@ -91,25 +91,32 @@ const typename LawTable<N>::One& LawTable<N>::in_force(std::span<const double> h
 }
 
 template <int N>
+void LawTable<N>::gather(const One& one, std::span<const double> h, double* own) {
+  for (const int place : one.places) *own++ = h[static_cast<std::size_t>(place)];
+}
+
+template <int N>
+void LawTable<N>::scatter(const One& one, const double* own, std::span<double> h) {
+  for (const int place : one.places) h[static_cast<std::size_t>(place)] = *own++;
+}
+
+template <int N>
 template <class Call>
 auto LawTable<N>::with_own(const One& one, std::span<const double> h, const Call& call) const {
   if (one.in_order) return call(h.first(one.places.size()));
   std::array<double, kMostScattered> own;
-  for (std::size_t i = 0; i < one.places.size(); ++i) own[i] = h[static_cast<std::size_t>(one.places[i])];
+  gather(one, h, own.data());
   return call(std::span<const double>(own.data(), one.places.size()));
 }
 
 template <int N>
 bool LawTable<N>::initialise(const Vector<N>& sigma, std::span<double> h) const {
   const One& one = in_force(h);
-  std::array<double, kMostScattered> room;
-  const std::size_t size = one.places.size();
-  const std::span<double> own = one.in_order ? h.first(size) : std::span<double>(room.data(), size);
-  if (!one.in_order)
-    for (std::size_t i = 0; i < size; ++i) own[i] = h[static_cast<std::size_t>(one.places[i])];
-  const bool carried = one.law->initialise(sigma, own);
-  if (!one.in_order)
-    for (std::size_t i = 0; i < size; ++i) h[static_cast<std::size_t>(one.places[i])] = own[i];
+  if (one.in_order) return one.law->initialise(sigma, h.first(one.places.size()));
+  std::array<double, kMostScattered> own;
+  gather(one, h, own.data());
+  const bool carried = one.law->initialise(sigma, std::span<double>(own.data(), one.places.size()));
+  scatter(one, own.data(), h);
   return carried;
 }
 
@@ -138,8 +145,7 @@ Outcome LawTable<N>::update(const PointIn<N>& in, PointOut<N>& out) const {
     own.h0 = h0;
     return one.law->update(own, out);
   });
-  if (!one.in_order)
-    for (std::size_t i = 0; i < size; ++i) all[static_cast<std::size_t>(one.places[i])] = room[i];
+  if (!one.in_order) scatter(one, room.data(), all);
   out.h1 = all;
   return outcome;
 }

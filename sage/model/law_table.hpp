@@ -80,6 +80,9 @@ class LawTable final : public Law<N>,
   void add_quantities(One& one);
   void show_parameters(const std::vector<LawVariant>& variants);
   const One& in_force(std::span<const double> h) const;
+  // The own part of a point's history, of which the places are given.
+  static void gather(const One& one, std::span<const double> h, double* own);
+  static void scatter(const One& one, const double* own, std::span<double> h);
   // call(own part of h): where that does not come first, on a copy.
   template <class Call>
   auto with_own(const One& one, std::span<const double> h, const Call& call) const;

@@ -59,6 +59,11 @@ std::optional<ModelPart> part_of(const Group& group) {
   return part_of_law(group.element->traits().law_size);
 }
 
+bool is_soil_or_joint(const MaterialEntry& entry) {
+  const std::optional<ModelPart> part = part_of(entry);
+  return !part || *part == ModelPart::soil || *part == ModelPart::joints;
+}
+
 bool has_strength(const MaterialEntry& entry) {
   return std::ranges::any_of(entry.parameters, [](const Parameter& p) { return is_strength(p.role); });
 }

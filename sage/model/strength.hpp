@@ -28,6 +28,8 @@ std::string_view name_of(ModelPart part);
 // To which part elements with this law, or those of a group, belong; nothing: they are of water.
 std::optional<ModelPart> part_of(const MaterialEntry& entry);
 std::optional<ModelPart> part_of(const Group& group);
+// Soil and joints, whose strengths the factors of a deck's own divide.
+bool is_soil_or_joint(const MaterialEntry& entry);
 
 // What becomes of the dilation angle.
 enum class DilationRule {
@@ -60,8 +62,8 @@ bool has_strength(const Material& material);
 bool has_less_dilation(const Model& model);
 
 // parameters: as the deck writes them, perhaps fewer than the entry has.  Cohesions, tensile strengths, forces and moments
-// that a structure carries / F, angles
-// of friction atan(tan(phi) / F), dilation by the rule.  Numbers that are not positive (0, or -1 for "none") stay.
+// that a structure carries / F, angles of friction atan(tan(phi) / F), dilation by the rule.  Numbers that are not positive
+// (0, or -1 for "none") stay.
 // False: the law has no strength, nothing changes.
 bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
                      const StrengthReduction& reduction);

@@ -187,7 +187,7 @@ bool Finder::chosen(const Group& group) const {
   const bool listed =
       options_.groups.empty() || std::ranges::find(options_.groups, group.number) != options_.groups.end();
   const std::optional<ModelPart> part = part_of(group);
-  return listed && part && std::ranges::find(options_.reduce, *part) != options_.reduce.end();
+  return listed && part && options_.divides(*part);
 }
 
 void Finder::check() const {
@@ -250,9 +250,7 @@ void Finder::keep_other_strengths() {
   if (stated <= 0.0 || stated == 1.0) return;
   for (std::size_t i = 0; i < materials_.size(); ++i) {
     const MaterialEntry& entry = *model_.materials[materials_[i]].entry;
-    const ModelPart part = part_of(entry).value_or(ModelPart::soil);
-    if (part == ModelPart::soil || part == ModelPart::joints)
-      reduce_strength(strength_[i], entry, {1.0 / stated, DilationRule::reduced});
+    if (is_soil_or_joint(entry)) reduce_strength(strength_[i], entry, {1.0 / stated, DilationRule::reduced});
   }
 }
 

@@ -2,6 +2,7 @@
 // that it still finds equilibrium.  docs/theory/strength_reduction.md
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,8 @@ struct Options {
   std::vector<int> groups;                         // numbers of those groups of the parts that are; empty = all
   int iterations = 40;                             // of an attempt
   int cuts = 5;                                    // halvings of a factor's way before it is given up
+
+  bool divides(ModelPart part) const { return std::ranges::find(reduce, part) != reduce.end(); }
 };
 
 enum class Verdict {

@@ -27,18 +27,14 @@ const char* dilation_words(DilationRule rule) {
   return "";
 }
 
-bool has(const Options& options, ModelPart part) {
-  return std::ranges::find(options.reduce, part) != options.reduce.end();
-}
-
 // "c / F, tan(phi) / F, tension limits / F; tan(psi) / F, like friction"
 std::string rule_words(const Options& options) {
   std::string text;
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : "; ") + words; };
-  if (has(options, ModelPart::soil) || has(options, ModelPart::joints))
+  if (options.divides(ModelPart::soil) || options.divides(ModelPart::joints))
     add(std::string("c / F, tan(phi) / F, tension limits / F; ") + dilation_words(options.dilation));
-  if (has(options, ModelPart::anchors)) add("forces of anchors / F");
-  if (has(options, ModelPart::walls)) add("M_p and N_p of walls / F");
+  if (options.divides(ModelPart::anchors)) add("forces of anchors / F");
+  if (options.divides(ModelPart::walls)) add("M_p and N_p of walls / F");
   return text;
 }
 

@@ -217,18 +217,25 @@ std::string tresca(const std::string& name, double c) {
       name, c);
 }
 
-// A wall pushes the column from its right side until all points have yielded, with nothing on its top.  Virtual work of a
-// uniform flow (across 1, upright -1) gives the wall's force, 2 times the integral of c = 10 + 3 (-z): 2 (80 + 96) = 352.
-TEST(StageLaws, AStrengthGrowsWithDepth) {
-  std::string text = column(
-      false, tresca("first", 10.0),
-      "[[initial]]\ngroup = \"soil\"\nkind = \"parameter\"\nparameter = \"cohesion\"\nvalues = [0, 0.0, 3.0]\n"
-      "[[stage]]\nincrements = 4\nfixity = [{first = 2, last = 10, step = 2, x = \"fixed\", x_value = "
-      "-0.02}]\n");
+// Free to move to the right on a smooth base; c = 10 + 3 (-z).
+std::string pressed_column(const std::string& stages) {
+  std::string text = column(false, tresca("first", 10.0),
+                            "[[initial]]\ngroup = \"soil\"\nkind = \"parameter\"\nparameter = "
+                            "\"cohesion\"\nvalues = [0, 0.0, 3.0]\n" +
+                                stages);
   const std::string held =
       "{first = 1, last = 2, x = \"fixed\", y = \"fixed\"}, {first = 1, last = 10, x = \"fixed\"}";
   text.replace(text.find(held), held.size(),
                "{first = 1, last = 2, y = \"fixed\"}, {first = 1, last = 9, step = 2, x = \"fixed\"}");
+  return text;
+}
+
+// A wall pushes the column from its right side until all points have yielded, with nothing on its top.  Virtual work of a
+// uniform flow (across 1, upright -1) gives the wall's force, 2 times the integral of c = 10 + 3 (-z): 2 (80 + 96) = 352.
+TEST(StageLaws, AStrengthGrowsWithDepth) {
+  const std::string text = pressed_column(
+      "[[stage]]\nincrements = 4\nfixity = [{first = 2, last = 10, step = 2, x = \"fixed\", x_value = "
+      "-0.02}]\n");
   const WholeRun run = run_model(text);
   ASSERT_TRUE(run.completed()) << run.failure;
   EXPECT_NEAR(run.reaction(run.last(), {2, 4, 6, 8, 10}, 0), -352.0, 1e-4);
@@ -307,17 +314,11 @@ TEST(StageLaws, ABeamGetsStiffer) {
 
 // Pressed from its right side by c = 10 + 3 (-z), with nothing on its top, the column needs c / F = c / 2 everywhere.
 TEST(StageLaws, ASafetyFactorDividesStrengthsPointByPoint) {
-  std::string text = column(
-      false, tresca("first", 10.0),
-      "[[initial]]\ngroup = \"soil\"\nkind = \"parameter\"\nparameter = \"cohesion\"\nvalues = [0, 0.0, 3.0]\n"
+  const std::string text = pressed_column(
       "[[stage]]\npressure = [{element = 1, edge = 2, normal1 = 34.0, normal2 = 28.0},\n"
       "  {element = 2, edge = 2, normal1 = 28.0, normal2 = 22.0},\n"
       "  {element = 3, edge = 2, normal1 = 22.0, normal2 = 16.0},\n"
       "  {element = 4, edge = 2, normal1 = 16.0, normal2 = 10.0}]\n");
-  const std::string held =
-      "{first = 1, last = 2, x = \"fixed\", y = \"fixed\"}, {first = 1, last = 10, x = \"fixed\"}";
-  text.replace(text.find(held), held.size(),
-               "{first = 1, last = 2, y = \"fixed\"}, {first = 1, last = 9, step = 2, x = \"fixed\"}");
   Model model = model_of(text);
   safety::Options options;
   options.limits.tolerance = 0.02;
