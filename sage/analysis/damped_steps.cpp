@@ -61,6 +61,15 @@ bool shows_collapse(const NewtonStep& step) {
   return step.flows && !step.iterations.empty() && step.iterations.back().force <= kExcess;
 }
 
+double largest_of_solids(const Eigen::VectorXd& motion, const std::vector<char>& of_solids) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < of_solids.size(); ++i) {
+    const double moved = of_solids[i] != 0 ? std::abs(motion[static_cast<Eigen::Index>(i)]) : 0.0;
+    if (!(moved <= most)) most = moved;  // not a number counts
+  }
+  return most;
+}
+
 }  // namespace
 
 // failed: Newton's attempt at the same step.
@@ -83,6 +92,7 @@ NewtonStep DampedSteps::attempt(StepReport& report, double from, double to, cons
     }
     if (!elastic.known()) return failed;
     step = stepper_.attempt_damped(from, to, {fall, &of_solids_});
+    judge_motion(step);
     if (run_.settings.trials != nullptr && !descends() && !step.flows) step = creep(report, to, fall, step);
     if (!step.flows || shows_collapse(step)) break;
   }
@@ -91,19 +101,25 @@ NewtonStep DampedSteps::attempt(StepReport& report, double from, double to, cons
   return says_more ? step : failed;
 }
 
-namespace {
-
-// A soft spring at a wall's tip may hold ground that slipped by more than the equations of small strain can tell, since the
-// stage began: in short steps each slips by little.
-bool has_slipped_away(const Eigen::VectorXd& motion, const std::vector<char>& of_solids, double size) {
-  constexpr double kFar = 0.1;  // of the model's size
-  double most = 0.0;
-  for (std::size_t i = 0; i < of_solids.size(); ++i)
-    if (of_solids[i] != 0) most = std::max(most, std::abs(motion[static_cast<Eigen::Index>(i)]));
-  return !(most <= kFar * size);
+// A soft spring at a wall's tip may hold ground that has slipped by more than the equations of small strain can tell.  The
+// motion counts from the start of the stage: in short steps each slips by little.
+bool DampedSteps::is_far(const NewtonStep& step, double far) const {
+  if (run_.settings.trials == nullptr || step.outcome != StepOutcome::converged) return false;
+  const Eigen::VectorXd motion = run_.state.u + run_.state.du - stage_u_;
+  return !(largest_of_solids(motion, of_solids_) <= far * run_.extent.size());
 }
 
-}  // namespace
+void DampedSteps::doubt(NewtonStep& step) const {
+  constexpr double kFar = 1.0;  // of the model's size: soft ground that is elastic may settle by a tenth
+  if (has_walls_ && is_far(step, kFar)) step.outcome = StepOutcome::not_converged;
+}
+
+void DampedSteps::judge_motion(NewtonStep& step) const {
+  constexpr double kFar = 0.1;  // of the model's size
+  if (!is_far(step, kFar)) return;
+  step.outcome = StepOutcome::not_converged;
+  step.flows = true;
+}
 
 // Where joints open and close in turns there may be no equilibrium with the history of the step's start, or none that
 // corrections find.  Damped motion is slow motion through states whose imbalance the damping carries: here the history follows
@@ -126,11 +142,8 @@ NewtonStep DampedSteps::creep(StepReport& report, double to, double damping_fall
     step = stepper_.attempt_damped(to, to, {damping_fall, &of_solids_});
   }
   step.crept = true;
-  if (step.outcome == StepOutcome::converged) {
-    if (!has_slipped_away(state.u + state.du - stage_u_, of_solids_, run_.extent.size())) return step;
-    step.outcome = StepOutcome::not_converged;
-    step.flows = true;
-  }
+  judge_motion(step);
+  if (step.outcome == StepOutcome::converged) return step;
   const Eigen::VectorXd motion = state.u + state.du - start_u;
   run_.restore_state(start);
   state.du = motion;

@@ -21,6 +21,8 @@ class DampedSteps {
   bool descends() const;  // Trials::descends, outside of trial increments
   bool proves() const;    // Trials::proves
 
+  // Newton's step in hand has not converged if it throws ground of a trial with walls out of the model.
+  void doubt(NewtonStep& step) const;
   // Whether steps of that length are tried with damping: the shortest ones, and those of trials that rely on it.
   bool due(bool last_cut) const;
   // Whether this one, which failed, can be.  on_last_way: it started with the tangent in the middle of the last step.
@@ -29,6 +31,8 @@ class DampedSteps {
   NewtonStep attempt(StepReport& report, double from, double to, const NewtonStep& failed);
 
  private:
+  bool is_far(const NewtonStep& step, double far) const;
+  void judge_motion(NewtonStep& step) const;
   NewtonStep creep(StepReport& report, double to, double damping_fall, const NewtonStep& shaken);
 
   const RunParts& run_;

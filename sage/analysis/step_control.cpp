@@ -71,6 +71,7 @@ bool StepControl::take_increment(StepReport& report) {
     run_.show_progress(report, state.reached);
     const bool went_on = state.path.policy->begins_elsewhere(run_, tried);
     NewtonStep step = search_.attempt(state.reached, to);
+    damped_.doubt(step);
     iterations += static_cast<int>(step.iterations.size());
     const bool last_cut = tried < 1.001 * std::ldexp(whole, -max_cuts_);
     if (damped_.due(last_cut) && !went_on && damped_.suits(step, on_last_way_)) {
