@@ -10,11 +10,15 @@ void Footing::build() {
   block.columns = in + out;
   block.rows = down;
   block.straight = true;
-  block.place = [in, out, w = width, d = depth, p = power](double s, double t) -> Vector2 {
+  // Of a side, from the edge: by its share of the cells.
+  const auto distance = [p = power](double share, int cells, double g) {
+    return g > 0.0 ? (std::pow(g, share * cells) - 1.0) / (std::pow(g, cells) - 1.0) : std::pow(share, p);
+  };
+  block.place = [=, w = width, d = depth, g = growth, down = down](double s, double t) -> Vector2 {
     const double place = s * (in + out);
-    const double x =
-        place <= in ? 1.0 - std::pow(1.0 - place / in, p) : 1.0 + w * std::pow((place - in) / out, p);
-    return {x, -d * std::pow(1.0 - t, p)};
+    const double x = place <= in ? 1.0 - distance(1.0 - place / in, in, g[0])
+                                 : 1.0 + w * distance((place - in) / out, out, g[1]);
+    return {x, -d * distance(1.0 - t, down, g[2])};
   };
   deck = DeckWriter(geometry);
   block.write_nodes(deck);

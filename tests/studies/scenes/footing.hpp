@@ -1,6 +1,7 @@
 // Footings pushed into soil up to their collapse load.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "tests/studies/scenes/deck_writer.hpp"
@@ -20,6 +21,8 @@ struct Footing {
       0.0;  // pressure on the whole surface, and the first stress of the ground in all directions
   int inside = 12, outside = 14, down = 16;  // cells under the footing, beside it, and below
   double width = 4.0, depth = 3.0, power = 2.2;
+  // Of each cell to the one before it, away from the edge: under the footing, beside it, below; 0 = by `power`.
+  std::array<double, 3> growth{};
   Block block{};
   DeckWriter deck{1};
   std::vector<int> base{};  // nodes under the footing
