@@ -13,6 +13,7 @@ namespace sage {
 struct Choice {
   Formulation formulation;
   std::function<std::unique_ptr<Element>(Geometry)> make;
+  std::function<std::unique_ptr<Element>(Geometry)> make_large = {};  // empty: it has none
 };
 
 // Completes an entry by its formulations and a make() that takes code 0 as the first choice and throws

@@ -1,5 +1,6 @@
 #include "elements/register_elements.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -9,6 +10,12 @@ namespace sage {
 
 ElementEntry element_entry(ElementEntry entry, std::vector<Choice> choices) {
   for (const Choice& choice : choices) entry.formulations.push_back(choice.formulation);
+  if (std::ranges::any_of(choices, [](const Choice& choice) { return choice.make_large != nullptr; }))
+    entry.make_large = [choices](Geometry geometry, int code) -> std::unique_ptr<Element> {
+      for (const Choice& choice : choices)
+        if (choice.formulation.code == code && choice.make_large) return choice.make_large(geometry);
+      return nullptr;
+    };
   entry.make = [name = entry.name, choices = std::move(choices)](Geometry geometry, int code) {
     if (code == 0) return choices.front().make(geometry);
     std::string known;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "elements/entries.hpp"
+#include "elements/large_strain.hpp"
 #include "elements/solid.hpp"
 
 namespace sage {
@@ -43,12 +44,29 @@ auto solid_maker(std::string_view name, SolidFlags flags = {}) {
   };
 }
 
+// Large strain: elements of few nodes whose strain is that of their displacements.
+template <class Shape, class Rule, AssumedStrain strain>
+std::function<std::unique_ptr<Element>(Geometry)> large_strain_maker(std::string_view name, SolidFlags flags) {
+  constexpr int kMostNodes = 15;
+  if constexpr (strain == AssumedStrain::enhanced || Shape::nodes > kMostNodes)
+    return {};
+  else
+    return [name, flags](Geometry geometry) -> std::unique_ptr<Element> {
+      if (geometry == Geometry::plane_strain)
+        return std::make_unique<LargeStrain<Shape, PlaneStrain, Rule, strain>>(name, flags.reduced_plane,
+                                                                               flags.locks, flags.loses_order);
+      return std::make_unique<LargeStrain<Shape, Axisymmetric, Rule, strain>>(name, flags.reduced_axisymmetric,
+                                                                              flags.locks, flags.loses_order);
+    };
+}
+
 // One formulation of a solid.  full_name: what its traits say.
 template <class Shape, class Rule, AssumedStrain strain = AssumedStrain::none>
 Choice solid(Formulation formulation, std::string_view full_name, SolidFlags flags = {}) {
   formulation.points = static_cast<int>(Rule::points);
   formulation.plain = strain == AssumedStrain::none;
-  return {std::move(formulation), solid_maker<Shape, Rule, strain>(full_name, flags)};
+  return {std::move(formulation), solid_maker<Shape, Rule, strain>(full_name, flags),
+          large_strain_maker<Shape, Rule, strain>(full_name, flags)};
 }
 
 }  // namespace sage

@@ -7,6 +7,7 @@
 #include "materials/linear_elastic.hpp"
 #include "materials/parameters.hpp"
 #include "materials/stress_measures.hpp"
+#include "sage/core/elastic_shear.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -38,7 +39,7 @@ struct DruckerPragerParameters {
 // the mean stress is held there and the deviator is what the cone leaves: zero at the apex, whatever beta is.
 // With free_mean the flow stays without volume change there too: only the deviator goes, the mean stress may be
 // tensile.  That is what a program does which knows no apex, the source chapter's among them.
-class DruckerPrager : public SolidLaw {
+class DruckerPrager : public SolidLaw, public ElasticShear {
  public:
   explicit DruckerPrager(const DruckerPragerParameters& parameters);
   // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic
@@ -56,6 +57,9 @@ class DruckerPrager : public SolidLaw {
   std::string caution() const override;
   // sqrt(J2D) / (alpha J1 + K) of the source chapter, J1 compression positive.
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
+  double shear_modulus(const Vector4& /*sigma*/, std::span<const double> /*h*/) const override {
+    return p_.elastic.G;
+  }
 
  protected:
   enum { kShear, kVolume };

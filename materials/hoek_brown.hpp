@@ -7,6 +7,7 @@
 #include "materials/linear_elastic.hpp"
 #include "materials/mohr_coulomb_return.hpp"
 #include "materials/rising_zero.hpp"
+#include "sage/core/elastic_shear.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -26,7 +27,7 @@ struct HoekBrownStrength {
   MovingPlanes touching(double x) const;
 };
 
-class HoekBrown final : public SolidLaw {
+class HoekBrown final : public SolidLaw, public ElasticShear {
  public:
   HoekBrown(const ElasticModuli& elastic, const HoekBrownStrength& strength)
       : elastic_(elastic), strength_(strength), D_elastic_(elastic_matrix(elastic)) {}
@@ -39,6 +40,9 @@ class HoekBrown final : public SolidLaw {
   bool accepts_history(const Vector4& sigma, std::span<const double> h) const override;
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
+  double shear_modulus(const Vector4& /*sigma*/, std::span<const double> /*h*/) const override {
+    return elastic_.G;
+  }
 
  private:
   enum { kShear, kVolume };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "materials/parameters.hpp"
+#include "sage/core/elastic_shear.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -20,7 +21,7 @@ ElasticModuli moduli_from_young_and_bulk(double youngs_modulus, double bulk_modu
 // D = K 1x1 + 2G I_dev with engineering shear.                              [chapter 7, E matrix]
 Matrix4 elastic_matrix(const ElasticModuli& moduli);
 
-class LinearElastic final : public SolidLaw {
+class LinearElastic final : public SolidLaw, public ElasticShear {
  public:
   explicit LinearElastic(const ElasticModuli& moduli) : D_(elastic_matrix(moduli)) {}
   LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
@@ -29,6 +30,9 @@ class LinearElastic final : public SolidLaw {
     out.D = D_;
     out.status = PointStatus::elastic;
     return Outcome::ok;
+  }
+  double shear_modulus(const Vector4& /*sigma*/, std::span<const double> /*h*/) const override {
+    return D_(3, 3);
   }
 
  private:

@@ -258,6 +258,12 @@ double ModifiedCamClay::stress_level(const Vector4& sigma, std::span<const doubl
   return h[kPressure] > 0.0 ? size / h[kPressure] : kInfinite;
 }
 
+double ModifiedCamClay::shear_modulus(const Vector4& sigma, std::span<const double> h) const {
+  if (clay_.G > 0.0) return clay_.G;
+  const double v = clay_.current_volume ? h[kVolume] : clay_.v0;
+  return by_bulk_ * std::max(-mean_stress(sigma), h[kLeast]) * v / clay_.kappa;
+}
+
 bool ModifiedCamClay::initialise(const Vector4& sigma, std::span<double> h) const {
   const double size = size_through(sigma);
   const bool carried = std::isfinite(size);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "materials/parameters.hpp"
+#include "sage/core/elastic_shear.hpp"
 #include "sage/core/law.hpp"
 #include "sage/core/law_remark.hpp"
 #include "sage/core/start_adjustment.hpp"
@@ -33,6 +34,7 @@ struct CamClay {
 class ModifiedCamClay final : public SolidLaw,
                               public PathError<4>,
                               public StartAdjustment<4>,
+                              public ElasticShear,
                               public LawRemark {
  public:
   // Of the parameters `floor` must not exceed 1/4.
@@ -54,6 +56,7 @@ class ModifiedCamClay final : public SolidLaw,
   std::string caution() const override;
   std::string remark() const override;
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
+  double shear_modulus(const Vector4& sigma, std::span<const double> h) const override;
 
  private:
   enum { kPressure, kVolume, kLeast, kShear, kPlasticVolume };

@@ -7,6 +7,7 @@
 #include "materials/linear_elastic.hpp"
 #include "materials/mohr_coulomb_return.hpp"
 #include "materials/parameters.hpp"
+#include "sage/core/elastic_shear.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -17,7 +18,7 @@ MohrCoulombPlanes mohr_coulomb_planes(double c, double phi, double psi, double T
 // (s1 - s3) / (2 c cos phi - (s1 + s3) sin phi), tension positive, or s1/T if that is larger; 1 at the apex.
 double mohr_coulomb_level(const MohrCoulombPlanes& planes, const Vector4& sigma);
 
-class MohrCoulomb final : public SolidLaw {
+class MohrCoulomb final : public SolidLaw, public ElasticShear {
  public:
   MohrCoulomb(const ElasticModuli& elastic, const MohrCoulombPlanes& planes)
       : elastic_(elastic), planes_(planes), D_elastic_(elastic_matrix(elastic)) {}
@@ -35,6 +36,9 @@ class MohrCoulomb final : public SolidLaw {
   }
   double stress_level(const Vector4& sigma, std::span<const double> /*h*/) const override {
     return mohr_coulomb_level(planes_, sigma);
+  }
+  double shear_modulus(const Vector4& /*sigma*/, std::span<const double> /*h*/) const override {
+    return elastic_.G;
   }
 
  private:

@@ -7,6 +7,7 @@
 #include "materials/linear_elastic.hpp"
 #include "materials/mohr_coulomb_return.hpp"
 #include "materials/rising_zero.hpp"
+#include "sage/core/elastic_shear.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -24,7 +25,7 @@ struct StrengthPath {
   bool softens() const;  // cohesion or friction falls somewhere
 };
 
-class MohrCoulombSoftening final : public SolidLaw {
+class MohrCoulombSoftening final : public SolidLaw, public ElasticShear {
  public:
   MohrCoulombSoftening(const ElasticModuli& elastic, const StrengthPath& path)
       : elastic_(elastic), path_(path), D_elastic_(elastic_matrix(elastic)) {}
@@ -38,6 +39,9 @@ class MohrCoulombSoftening final : public SolidLaw {
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override;
   std::string caution() const override;
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;
+  double shear_modulus(const Vector4& /*sigma*/, std::span<const double> /*h*/) const override {
+    return elastic_.G;
+  }
 
  private:
   enum { kShear, kVolume };

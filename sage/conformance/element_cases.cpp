@@ -124,6 +124,7 @@ Outcome ElementRun::evaluate(const Eigen::VectorXd& du, bool want_stiffness) {
   in.dt = dt;
   in.x = x.data();
   in.second_law = second_law;
+  in.edges = edges;
   ElementOut out{
       want_stiffness ? K.data() : nullptr, f.data(), sigma1.data(), eps1.data(), h1.data(), status.data()};
   return element->evaluate(in, out);

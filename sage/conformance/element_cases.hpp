@@ -55,6 +55,7 @@ struct ElementRun {
   std::vector<PointStatus> status;
   Eigen::VectorXd u0;  // zero unless it is set
   double dt = 0.0;
+  std::vector<EdgeTraction> edges;  // of large strain
   Eigen::MatrixXd K;
   Eigen::VectorXd f;
 };

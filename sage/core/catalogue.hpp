@@ -167,6 +167,8 @@ struct ElementEntry {
   bool extends = false;  // a structure whose axial strain is no strain but the extension itself, a length
   // Throws ParameterError for an unknown formulation code, or a geometry that it can't be in.
   std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make{};
+  // The same under large strain; nullptr for a formulation that has no such element.  Empty: none has.
+  std::function<std::unique_ptr<Element>(Geometry geometry, int formulation)> make_large{};
 
   bool solid() const { return kind == ElementKind::solid; }
   bool interface() const { return kind == ElementKind::interface; }

@@ -34,7 +34,10 @@ struct ElementTraits {
   // factors serve all steps of that size.
   bool linear_in_step = false;
   bool sees_coordinates =
-      false;                 // ElementIn::x is wanted: for elements that recompute their geometry as they move
+      false;  // ElementIn::x is wanted: for elements that recompute their geometry as they move
+  // Stress is that of the moved place (Cauchy's), strain logarithmic, and loads on edges follow the motion
+  // (ElementIn::edges); sees unknowns and coordinates.
+  bool large_strain = false;
   int second_law_size = 0;   // components of ElementIn::second_law; 0 = the element has one law
   bool loses_order = false;  // as nu -> 1/2 it still converges, but slower than its shape functions allow
   int own_doubles = 0;       // that geometry() writes behind the points, for evaluate() alone
@@ -44,6 +47,12 @@ struct ElementTraits {
   int pressure_history = -1;  // of them the excess pressure of pore water, which the law's stress is without
   // Doubles filled by geometry(): for each point its weight w, then B^T (dofs x law_size, column-major).
   int geometry_size() const { return points * (1 + law_size * dofs) + own_doubles; }
+};
+
+// A load on an edge, as Element::edge_load has it.
+struct EdgeTraction {
+  int edge = 0;
+  Vector2 normal = Vector2::Zero(), shear = Vector2::Zero();
 };
 
 // One element's inputs.  Pointers are to contiguous blocks of the sizes that the traits give.
@@ -69,6 +78,9 @@ struct ElementIn {
   // committed state; nullptr = there are none.
   const double* spread = nullptr;
   const double* spread0 = nullptr;
+  // Of large strain: loads on its edges at the end of the step.  The loads of the run are those of the mesh; what the motion
+  // adds to them is taken from f (and its derivative from K).
+  std::span<const EdgeTraction> edges = {};
 };
 
 struct ElementOut {
@@ -78,6 +90,7 @@ struct ElementOut {
   double* eps1 = nullptr;         // points x law_size, trial strain
   double* h1 = nullptr;           // points x (history of the law, then of the element), overwritten
   PointStatus* status = nullptr;  // points
+  double* load = nullptr;         // dofs, of ElementIn::edges: what the motion adds to these loads, overwritten
 };
 
 // Optional interface: FourElements (four_at_a_time.hpp).
