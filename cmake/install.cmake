@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 set(SAGE_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/sagefe)
-set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_page sage_umat sage_layout sage_deck sage_layout_draft sage_model sage_exchange sage_mesh sage_section sage_model_file sage_builder sage_analysis sage_record
+set(SAGE_PACKAGE_TARGETS sage_fmt sage_core sage_page sage_umat sage_layout sage_deck sage_layout_draft sage_model sage_exchange sage_mesh sage_section sage_model_file sage_builder sage_analysis sage_record sage_report
                          sage_draw sage_convergence sage_safety sage_bounds sage_sweep sage_compare sage_drive sage_app sage_commands
                          sage_elements sage_materials sage_solvers sage_conformance)
 

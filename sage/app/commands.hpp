@@ -43,6 +43,7 @@ Command verify_command(CLI::App& parser, const Catalogue& catalogue);
 Command compare_command(CLI::App& parser, const Catalogue& catalogue);
 Command drive_command(CLI::App& parser, const Catalogue& catalogue);
 Command figures_command(CLI::App& parser, const Catalogue& catalogue);
+Command report_command(CLI::App& parser, const Catalogue& catalogue);
 Command bounds_command(CLI::App& parser, const Catalogue& catalogue);
 Command safety_command(CLI::App& parser, const Catalogue& catalogue);
 Command sweep_command(CLI::App& parser, const Catalogue& catalogue);

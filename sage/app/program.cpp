@@ -62,6 +62,8 @@ constexpr Entry kCommands[] = {
      "list the elements, materials and solvers for decks, the fields of results, or decks to start from",
      list_command, true},
     {"plot", "draw curves from tables of earlier runs, and pictures of their states", plot_command, true},
+    {"report", "write one HTML page of a run, or of two side by side: fields, curves, messages, deck", report_command,
+     true},
     {"conform", "run the conformance tests on a plug-in or UMAT", conform_command, true},
     {"new", "write a commented deck that runs, or a folder with a law, an element or a UMAT of your own",
      new_command},

@@ -16,6 +16,7 @@
 #include "sage/app/jobs.hpp"
 #include "sage/app/large_heap.hpp"
 #include "sage/app/progress.hpp"
+#include "sage/app/report_page.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
@@ -34,6 +35,7 @@ struct RunOptions {
   ConvergeOptions converge;
   std::string tables = "auto";
   std::vector<std::string> without;
+  bool report = false;
   int jobs = 1;  // decks at a time; 0: as many as there are processors
 };
 
@@ -81,6 +83,15 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
   RunRequest request = options.request;
   request.deck = deck;
   request.output.tables = tables_of(options.tables);
+  if (options.report) {
+    request.output.result = true;
+    request.write_page = [&catalogue](const std::filesystem::path& result) {
+      std::filesystem::path page = result;
+      page.replace_extension(".html");
+      write_report_page({result}, page, {}, catalogue);
+      return page;
+    };
+  }
   for (const std::string& name : options.without)
     for (const SkipName& skip : kSkipNames)
       if (name == skip.name || name == "all") request.skips.*skip.flag = false;
@@ -212,11 +223,11 @@ int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
 
 int run_all(const RunOptions& options, const Catalogue& catalogue) {
   const OutputOptions& output = options.request.output;
-  if (!output.states.empty() && !output.result && !output.vtu && !output.msh && !output.nodes &&
+  if (!output.states.empty() && !output.result && !options.report && !output.vtu && !output.msh && !output.nodes &&
       !output.points && output.pictures.empty() && options.tables != "all") {
     say_error(
         "sagefe",
-        "--states: into which files? --result, --picture, --vtu, --msh, --nodes, --points or --tables all",
+        "--states: into which files? --result, --report, --picture, --vtu, --msh, --nodes, --points or --tables all",
         "S905");
     return kUsage;
   }
@@ -283,13 +294,16 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_flag("--msh", request.output.msh, "write STEM.msh: mesh and fields for Gmsh (MSH 4.1)");
   parser.add_flag("--result", request.output.result,
                   "write STEM.h5: all fields at all output increments in one HDF5 file (also for ParaView)");
+  parser.add_flag("--report", options->report,
+                  "write STEM.html, a page of the whole run for every browser (sagefe report), and the STEM.h5 that "
+                  "it is made of");
   parser
       .add_option(
           "--states", request.output.states,
           "more increments at which states are written, besides those of the deck: strain=VALUE,... "
           "(axial, of the specimen; the nearest increment of the last stage), load=VALUE,... (load factor of "
-          "the last stage), or STAGE:INCREMENT,...; may be repeated.  For --result, --picture, --vtu, --msh, "
-          "--nodes, --points")
+          "the last stage), or STAGE:INCREMENT,...; may be repeated.  For --result, --report, --picture, --vtu, "
+          "--msh, --nodes, --points")
       ->allow_extra_args(false)
       ->check([](const std::string& text) { return state_error("--states", text); });
   add_field_options(parser, request.output.pictures, request.output.fields,

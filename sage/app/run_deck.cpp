@@ -70,6 +70,7 @@ class DeckRun {
   RunResult solve();
   void take(const RunResult& result);
   void close_own_results();
+  void write_page();
   void write_profile();
 
   RunRequest request_;
@@ -86,6 +87,7 @@ class DeckRun {
   bool has_checkpoint_ = false;
   std::optional<EndOfInterrupted> end_;
   Outputs outputs_;
+  std::filesystem::path page_;
   Verbose verbose_{request_};
   RunWarnings warnings_{request_};
 };
@@ -201,12 +203,23 @@ void DeckRun::close_own_results() {
   if (!request_.quiet) say_left(request_.deck, left);
 }
 
+// Of runs that have written their result file.
+void DeckRun::write_page() {
+  const std::filesystem::path result = request_.output.folder / (stem_of(request_) + ".h5");
+  const bool ended = outcome_.record.result.status != RunStatus::stopped && outcome_.exit_code != kInterrupted;
+  if (!request_.write_page || !ended || !std::filesystem::exists(result)) return;
+  const Profile::Scope scope(profile_, phase::kFiles);
+  page_ = request_.write_page(result);
+}
+
 void DeckRun::close_results() {
+  write_page();
   if (own_) {
     const Profile::Scope scope(profile_, phase::kFiles);
     close_own_results();
   }
   outcome_.files = files_of(*outcome_.reports, outputs_);
+  if (!page_.empty()) outcome_.files.push_back(page_);
 }
 
 // After all others: only then is it known what they took.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "sage/analysis/run.hpp"
@@ -51,6 +52,9 @@ struct RunRequest {
   bool profile = false;              // STEM.profile.json, and memory in RunRecord::profile
   bool keep_result = false;          // RunOutcome::result is wanted
   Observer* watch = nullptr;         // sees the run too
+  // Makes a page of STEM.h5 when all other results are complete, as one of them, and gives its path; empty = none is
+  // wanted.
+  std::function<std::filesystem::path(const std::filesystem::path& result)> write_page = {};
 };
 
 // Reports and record stay readable after the run.

@@ -1,0 +1,57 @@
+#include "sage/report/page.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "sage/record/values.hpp"
+#include "sage/report/bundle.hpp"
+#include "sage/report/run_data.hpp"
+
+namespace sage::report {
+
+namespace {
+
+Json run_json(const PageRun& run, const PageOptions& options, std::vector<std::string>& omitted) {
+  Json json = Json::object();
+  add_model(run, json);
+  std::vector<std::string> missing = add_states(run, options, json);
+  for (std::string& words : add_papers(run, json)) missing.push_back(std::move(words));
+  json["omitted"] = Json::array();
+  for (const std::string& words : missing) {
+    json["omitted"].push_back(clean(words));
+    omitted.push_back(run.file.stem().string() + ": " + words);
+  }
+  return json;
+}
+
+std::string title_of(const std::vector<PageRun>& runs) {
+  std::string title;
+  for (const PageRun& run : runs) title += (title.empty() ? "" : " | ") + run.model.title;
+  return clean(title);
+}
+
+}  // namespace
+
+Page make_page(const std::vector<PageRun>& runs, const PageOptions& options) {
+  Page page;
+  Json json = {{"sagefe", SAGE_VERSION}, {"format", 1}, {"runs", Json::array()}};
+  for (const PageRun& run : runs) json["runs"].push_back(run_json(run, options, page.omitted));
+  // A policy that lets nothing in from outside: scripts and styles of this file alone, pictures that it holds.
+  constexpr const char* kPolicy =
+      "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
+  page.html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<link rel=\"icon\" href=\"data:,\">\n"
+      "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n"
+      "<noscript>This page shows results with the help of JavaScript, which is switched off.</noscript>\n"
+      "<main id=\"page\"></main>\n<script type=\"application/json\" id=\"data\">",
+      kPolicy, xml_text(title_of(runs)), bundle_style());
+  page.html += text_for_script(json);
+  page.html += "</script>\n<script>\n";
+  page.html += bundle_script();
+  page.html += "</script>\n</body>\n</html>\n";
+  return page;
+}
+
+}  // namespace sage::report
