@@ -43,7 +43,8 @@ struct RunOnPage {
 };
 
 // Throws UsageError for a field that no run has.
-void expect_fields(const std::vector<std::string>& fields, const std::vector<std::unique_ptr<RunOnPage>>& runs) {
+void expect_fields(const std::vector<std::string>& fields,
+                   const std::vector<std::unique_ptr<RunOnPage>>& runs) {
   for (const std::string& name : fields) {
     std::vector<std::string> known;
     const bool there = std::ranges::any_of(runs, [&](const std::unique_ptr<RunOnPage>& run) {
@@ -107,9 +108,9 @@ fs::path result_file_of(const std::string& name) {
     if (found.size() == 1) return found.front();
     std::string names;
     for (const fs::path& file : found) names += " " + file.filename().string();
-    throw UsageError("S620", found.empty()
-                                 ? name + ": the folder has no result file (STEM.h5 of sagefe run DECK --result)"
-                                 : name + ": the folder has several result files, name one:" + names);
+    throw UsageError(
+        "S620", found.empty() ? name + ": the folder has no result file (STEM.h5 of sagefe run DECK --result)"
+                              : name + ": the folder has several result files, name one:" + names);
   }
   const fs::path with_ending(name + ".h5");
   if (path.extension() != ".h5" && fs::exists(with_ending, error)) return with_ending;
@@ -117,8 +118,9 @@ fs::path result_file_of(const std::string& name) {
     if (fs::exists(path, error)) return path;
     throw UsageError("S620", name + ": there is no such result file (STEM.h5 of sagefe run DECK --result)");
   }
-  throw UsageError("S620", name + " is no result file: a page is made of STEM.h5, which sagefe run DECK --result "
-                                  "or --report writes");
+  throw UsageError("S620", name +
+                               " is no result file: a page is made of STEM.h5, which sagefe run DECK --result "
+                               "or --report writes");
 }
 
 std::uintmax_t write_report_page(const std::vector<fs::path>& results, const fs::path& page,
@@ -134,7 +136,8 @@ std::uintmax_t write_report_page(const std::vector<fs::path>& results, const fs:
   std::error_code error;
   if (page.has_parent_path()) fs::create_directories(page.parent_path(), error);
   if (error)
-    throw OutputError("S601", "the folder " + page.parent_path().string() + " can't be made: " + error.message());
+    throw OutputError("S601",
+                      "the folder " + page.parent_path().string() + " can't be made: " + error.message());
   write_file(page, std::move(made.html));
   return size;
 }
@@ -143,9 +146,10 @@ Command report_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<ReportOptions>();
   parser.footer(kReportExamples);
   parser
-      .add_option("RUN", options->runs,
-                  "result files (STEM.h5 of sagefe run DECK --result), the same without .h5, or folders with one; "
-                  "tables, listing and pictures of the run are read where they lie beside it")
+      .add_option(
+          "RUN", options->runs,
+          "result files (STEM.h5 of sagefe run DECK --result), the same without .h5, or folders with one; "
+          "tables, listing and pictures of the run are read where they lie beside it")
       ->required();
   parser.add_option("-o,--output", options->folder, "folder of the page (default: that of the first run)");
   parser.add_option("--name", options->name, "name of the page (default: from those of the runs)")

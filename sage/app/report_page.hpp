@@ -16,7 +16,8 @@ std::filesystem::path result_file_of(const std::string& name);
 
 // Writes the page of these result files, says what it lacks, and gives its size in bytes.  Throws InputError, UsageError,
 // OutputError.
-std::uintmax_t write_report_page(const std::vector<std::filesystem::path>& results, const std::filesystem::path& page,
-                       const report::PageOptions& options, const Catalogue& catalogue);
+std::uintmax_t write_report_page(const std::vector<std::filesystem::path>& results,
+                                 const std::filesystem::path& page, const report::PageOptions& options,
+                                 const Catalogue& catalogue);
 
 }  // namespace sage::app

@@ -223,12 +223,12 @@ int run_beside(RunOptions options, int jobs, const Catalogue& catalogue) {
 
 int run_all(const RunOptions& options, const Catalogue& catalogue) {
   const OutputOptions& output = options.request.output;
-  if (!output.states.empty() && !output.result && !options.report && !output.vtu && !output.msh && !output.nodes &&
-      !output.points && output.pictures.empty() && options.tables != "all") {
-    say_error(
-        "sagefe",
-        "--states: into which files? --result, --report, --picture, --vtu, --msh, --nodes, --points or --tables all",
-        "S905");
+  if (!output.states.empty() && !output.result && !options.report && !output.vtu && !output.msh &&
+      !output.nodes && !output.points && output.pictures.empty() && options.tables != "all") {
+    say_error("sagefe",
+              "--states: into which files? --result, --report, --picture, --vtu, --msh, --nodes, --points or "
+              "--tables all",
+              "S905");
     return kUsage;
   }
   std::set<std::string> names;
@@ -294,15 +294,17 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_flag("--msh", request.output.msh, "write STEM.msh: mesh and fields for Gmsh (MSH 4.1)");
   parser.add_flag("--result", request.output.result,
                   "write STEM.h5: all fields at all output increments in one HDF5 file (also for ParaView)");
-  parser.add_flag("--report", options->report,
-                  "write STEM.html, a page of the whole run for every browser (sagefe report), and the STEM.h5 that "
-                  "it is made of");
+  parser.add_flag(
+      "--report", options->report,
+      "write STEM.html, a page of the whole run for every browser (sagefe report), and the STEM.h5 that "
+      "it is made of");
   parser
       .add_option(
           "--states", request.output.states,
           "more increments at which states are written, besides those of the deck: strain=VALUE,... "
           "(axial, of the specimen; the nearest increment of the last stage), load=VALUE,... (load factor of "
-          "the last stage), or STAGE:INCREMENT,...; may be repeated.  For --result, --report, --picture, --vtu, "
+          "the last stage), or STAGE:INCREMENT,...; may be repeated.  For --result, --report, --picture, "
+          "--vtu, "
           "--msh, --nodes, --points")
       ->allow_extra_args(false)
       ->check([](const std::string& text) { return state_error("--states", text); });

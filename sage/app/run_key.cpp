@@ -54,9 +54,9 @@ std::string options_key(const RunRequest& request) {
   const auto& [deck, input, output, stem, solver, threads, kernels, refinement, condition, quiet, skips,
                max_dofs, restart, checkpoint_seconds, interrupt_patience, stop_asked, results, profile,
                keep_result, watch, write_page] = request;
-  does_not_count(deck, input);            // they make the model, which has its own sum beside that of the deck
-  does_not_count(stem, results);          // where the checkpoint lies
-  does_not_count(threads, kernels);       // results are the same to the last bit
+  does_not_count(deck, input);       // they make the model, which has its own sum beside that of the deck
+  does_not_count(stem, results);     // where the checkpoint lies
+  does_not_count(threads, kernels);  // results are the same to the last bit
   does_not_count(quiet, profile, watch, write_page);  // what is shown of it
   // Whether and how far it runs.
   does_not_count(restart, checkpoint_seconds, interrupt_patience, stop_asked, max_dofs);

@@ -1164,16 +1164,19 @@ constexpr MessageEntry kMessages[] = {
      "A group that goes on with another material keeps the weight with which it was loaded.",
      "Give both materials the same unit weight, or add the difference as a load."},
     {"S620", "sagefe report found no result file",
-     "A page is made of the result file of a run, STEM.h5, and of the tables and the listing beside it. A plain "
+     "A page is made of the result file of a run, STEM.h5, and of the tables and the listing beside it. A "
+     "plain "
      "sagefe run writes no result file.",
      "Run the deck with sagefe run DECK --report, which writes the page too, or with --result; then give "
      "sagefe report the name of the file."},
     {"S621", "a page lacks something for want of room",
-     "A page holds its data itself and is meant to be sent and opened quickly: about 4 MB a run. Fields, states or "
+     "A page holds its data itself and is meant to be sent and opened quickly: about 4 MB a run. Fields, "
+     "states or "
      "rows that do not fit are left out; the message and the page say which.",
      "sagefe report --size MB gives the page more room, --field NAME keeps the fields that matter."},
     {"S622", "no run of the page has the field",
-     "The name is not one of the fields at nodes or integration points that the runs have, or it is one that the "
+     "The name is not one of the fields at nodes or integration points that the runs have, or it is one that "
+     "the "
      "page makes itself of the stress (mean, deviator, principal stresses).",
      "Take a name of the list in the message; stress, strain and displacement have all their components."},
     {"S630", "the checkpoint does not fit",

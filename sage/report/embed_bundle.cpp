@@ -30,7 +30,8 @@ bool write_function(std::ofstream& out, const char* name, const char* path) {
 int main(int argc, char** argv) {
   if (argc != 4) return 1;
   std::ofstream out(argv[1], std::ios::binary);
-  out << "// Written by embed_bundle from web/report.\n#include \"sage/report/bundle.hpp\"\n\nnamespace sage::report {\n\n";
+  out << "// Written by embed_bundle from web/report.\n#include \"sage/report/bundle.hpp\"\n\nnamespace "
+         "sage::report {\n\n";
   if (!write_function(out, "bundle_script", argv[2]) || !write_function(out, "bundle_style", argv[3])) {
     std::fprintf(stderr, "embed_bundle: %s or %s can't be read\n", argv[2], argv[3]);
     return 1;

@@ -25,8 +25,10 @@ Json quantised(const std::vector<double>& values, std::size_t width, double low,
   bytes.reserve(values.size() * width);
   for (const double value : values)
     append_step(bytes,
-                std::isfinite(value) ? static_cast<std::uint32_t>(std::lround((value - low) * per_step)) : none, width);
-  return {{"t", width == 3 ? "q3" : "q2"}, {"n", values.size()}, {"lo", low}, {"hi", high}, {"b", base64(bytes)}};
+                std::isfinite(value) ? static_cast<std::uint32_t>(std::lround((value - low) * per_step)) : none,
+                width);
+  return {
+      {"t", width == 3 ? "q3" : "q2"}, {"n", values.size()}, {"lo", low}, {"hi", high}, {"b", base64(bytes)}};
 }
 
 bool all_alike(const std::vector<double>& values) {
@@ -46,8 +48,7 @@ std::string base64(std::string_view bytes) {
     std::uint32_t three = 0;
     for (std::size_t i = 0; i < 3; ++i)
       three = three << 8 | (i < count ? static_cast<unsigned char>(bytes[at + i]) : 0u);
-    for (std::size_t i = 0; i < 4; ++i)
-      text += i <= count ? kDigits[(three >> (18 - 6 * i)) & 63u] : '=';
+    for (std::size_t i = 0; i < 4; ++i) text += i <= count ? kDigits[(three >> (18 - 6 * i)) & 63u] : '=';
   }
   return text;
 }
@@ -73,7 +74,8 @@ Json packed_integers(const std::vector<int>& values, std::size_t stride) {
   std::string bytes;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::int64_t step = std::int64_t{values[i]} - (i >= stride ? values[i - stride] : 0);
-    std::uint64_t left = step < 0 ? 2 * static_cast<std::uint64_t>(-step) - 1 : 2 * static_cast<std::uint64_t>(step);
+    std::uint64_t left =
+        step < 0 ? 2 * static_cast<std::uint64_t>(-step) - 1 : 2 * static_cast<std::uint64_t>(step);
     for (; left >= 128; left >>= 7) bytes += static_cast<char>(left % 128 + 128);
     bytes += static_cast<char>(left);
   }
@@ -81,7 +83,8 @@ Json packed_integers(const std::vector<int>& values, std::size_t stride) {
 }
 
 std::string text_for_script(const Json& json) {
-  const std::string text = json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII: no line separators
+  const std::string text =
+      json.dump(-1, ' ', true, Json::error_handler_t::replace);  // ASCII: no line separators
   std::string safe;
   safe.reserve(text.size() + 64);
   for (const char c : text) {

@@ -4,6 +4,7 @@
 
 #include "sage/model/activity.hpp"
 #include "sage/model/foreign_element.hpp"
+#include "sage/record/extremes.hpp"
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/nodal_values.hpp"
 #include "sage/record/values.hpp"
@@ -57,7 +58,8 @@ void lay_triangle(int n, std::vector<Vector2>& places, std::vector<int>& triangl
   std::vector<int> first;
   for (int j = 0; j <= n; ++j) {
     first.push_back(static_cast<int>(places.size()));
-    for (int i = 0; i + j <= n; ++i) places.emplace_back(static_cast<double>(i) / n, static_cast<double>(j) / n);
+    for (int i = 0; i + j <= n; ++i)
+      places.emplace_back(static_cast<double>(i) / n, static_cast<double>(j) / n);
   }
   for (int j = 0; j < n; ++j)
     for (int i = 0; i + j < n; ++i) {
@@ -126,7 +128,7 @@ Json group_json(const Model& model, std::size_t index, const NodalLayout& layout
     json["lattice"] = lattice.weights;
     json["triangles"] = lattice.triangles;
     json["sides"] = sides_of(group);
-    json["entries"] = packed_integers(layout.of_group[index], group.node_count());
+    if (!layout.of_group.empty()) json["entries"] = packed_integers(layout.of_group[index], group.node_count());
   } else {
     json["line"] = line_of(group);
   }
@@ -165,7 +167,8 @@ Json loads_json(const Model& model, const Stage& stage) {
     const Group& group = model.groups[static_cast<std::size_t>(load.group)];
     const std::vector<int>& edge = group.element->edges()[static_cast<std::size_t>(load.edge)];
     const int* const of = group.nodes_of(load.element);
-    edges.push_back({of[edge[0]], of[edge[1]], load.normal.x(), load.normal.y(), load.shear.x(), load.shear.y()});
+    edges.push_back(
+        {of[edge[0]], of[edge[1]], load.normal.x(), load.normal.y(), load.shear.x(), load.shear.y()});
   }
   return {{"nodes", std::move(nodes)}, {"edges", std::move(edges)}};
 }
@@ -204,6 +207,10 @@ Activity all_active(const Model& model) {
   return activity;
 }
 
+bool any_interface(const Model& model) {
+  return std::ranges::any_of(model.groups, [](const Group& group) { return group.interface(); });
+}
+
 }  // namespace
 
 void add_model(const PageRun& run, Json& json) {
@@ -220,9 +227,12 @@ void add_model(const PageRun& run, Json& json) {
   std::vector<double> x, y;
   for (int n = 0; n < model.mesh.nodes(); ++n) x.push_back(model.mesh.x(0, n)), y.push_back(model.mesh.x(1, n));
   const Precision precision = x.size() > 20000 ? Precision::fine : Precision::whole;
-  json["nodes"] = {{"number", packed_integers(model.mesh.number)}, {"x", packed(x, precision)}, {"y", packed(y, precision)}};
-  const NodalLayout layout = nodal_layout(model, all_active(model));
+  json["nodes"] = {
+      {"number", packed_integers(model.mesh.number)}, {"x", packed(x, precision)}, {"y", packed(y, precision)}};
+  NodalLayout layout = nodal_layout(model, all_active(model));
   json["entries"] = layout.entries();
+  // Values are averaged over the elements of one material at a node; where no structure parts them, the script knows.
+  if (!has_structures(model) && !any_interface(model)) layout.of_group.clear();
   Json groups = Json::array(), materials = Json::array();
   for (std::size_t g = 0; g < model.groups.size(); ++g) groups.push_back(group_json(model, g, layout));
   for (const Material& material : model.materials) materials.push_back(material_json(model, material));

@@ -13,8 +13,8 @@ namespace {
 Json run_json(const PageRun& run, const PageOptions& options, std::vector<std::string>& omitted) {
   Json json = Json::object();
   add_model(run, json);
-  std::vector<std::string> missing = add_states(run, options, json);
-  for (std::string& words : add_papers(run, json)) missing.push_back(std::move(words));
+  std::vector<std::string> missing = add_papers(run, json);
+  for (std::string& words : add_states(run, options, json)) missing.push_back(std::move(words));
   json["omitted"] = Json::array();
   for (const std::string& words : missing) {
     json["omitted"].push_back(clean(words));

@@ -18,7 +18,8 @@ struct PageRun {
 };
 
 struct PageOptions {
-  std::vector<std::string> fields;  // the only ones besides the displacement, by name; empty = as many as there is room for
+  std::vector<std::string> fields =
+      {};  // the only ones besides the displacement, by name; empty = as many as there is room for
   // Bytes of one run's part, about.  0 = 4 MB, or 80 bytes an element where that is more.
   std::size_t room = 0;
   std::size_t most_points = 1000000;  // above that each element has the mean of its points

@@ -43,8 +43,8 @@ std::vector<fs::path> beside(const fs::path& result, const std::string& ending) 
 
 // Tables of places, which the views show.
 bool of_places(const std::string& rest) {
-  constexpr std::string_view kPlaces[] = {".nodes.csv",      ".points.csv", ".interfaces.csv", ".structures.csv",
-                                          ".flow.csv",       ".ends.csv",   ".envelope.csv",   ".bounds.fields.csv"};
+  constexpr std::string_view kPlaces[] = {".nodes.csv", ".points.csv", ".interfaces.csv", ".structures.csv",
+                                          ".flow.csv",  ".ends.csv",   ".envelope.csv",   ".bounds.fields.csv"};
   return std::ranges::find(kPlaces, rest) != std::end(kPlaces);
 }
 
@@ -53,7 +53,9 @@ Json table_json(const CsvTable& table, const std::string& rest) {
   for (const CsvTable::Column& column : table.columns) {
     std::vector<double> values = column.values;
     if (values.size() > kMostRows) values.resize(kMostRows);
-    columns.push_back({{"name", clean(column.name)}, {"unit", clean(column.unit)}, {"values", packed(values, Precision::whole)}});
+    columns.push_back({{"name", clean(column.name)},
+                       {"unit", clean(column.unit)},
+                       {"values", packed(values, Precision::whole)}});
   }
   return {{"name", clean(rest)}, {"title", clean(table.title())}, {"columns", std::move(columns)}};
 }
@@ -67,7 +69,8 @@ Json tables_json(const PageRun& run, std::vector<std::string>& omitted) {
     try {
       const CsvTable table = read_csv_table(file);
       if (table.lines.size() > kMostRows)
-        omitted.push_back(fmt::format("{} has {} rows: the page has the first {}", name, table.lines.size(), kMostRows));
+        omitted.push_back(
+            fmt::format("{} has {} rows: the page has the first {}", name, table.lines.size(), kMostRows));
       if (!table.lines.empty()) tables.push_back(table_json(table, rest.substr(1, rest.size() - 5)));
     } catch (const InputError& error) {
       omitted.push_back(std::string(error.what()));
@@ -110,7 +113,8 @@ Json message_json(const std::string& severity, const std::string& code, int line
 
 // Of the listing: "deck.dat:71: note: the words [S345]".  What the deck alone says is there too.
 Json messages_of_listing(const fs::path& listing) {
-  static const std::regex kLine(R"(^ (\S.*?)(?::(\d+)(?::\d+(?:-\d+)?)?)?: (note|warning|error): (.*) \[(S\d+)\]\s*$)");
+  static const std::regex kLine(
+      R"(^ (\S.*?)(?::(\d+)(?::\d+(?:-\d+)?)?)?: (note|warning|error): (.*) \[(S\d+)\]\s*$)");
   Json messages = Json::array();
   std::ifstream in(listing, std::ios::binary);
   std::set<std::string> seen;
@@ -119,7 +123,8 @@ Json messages_of_listing(const fs::path& listing) {
     if (line.size() > 4000 || !line.starts_with(' ') || line.find(" [S") == std::string::npos ||
         !std::regex_match(line, match, kLine) || !seen.insert(line).second)
       continue;
-    messages.push_back(message_json(match[3], match[5], match[2].matched ? std::atoi(match[2].str().c_str()) : 0, match[4]));
+    messages.push_back(
+        message_json(match[3], match[5], match[2].matched ? std::atoi(match[2].str().c_str()) : 0, match[4]));
   }
   return messages;
 }
@@ -130,7 +135,8 @@ Json messages_json(const PageRun& run) {
   if (fs::is_regular_file(listing, error)) return messages_of_listing(listing);
   Json messages = Json::array();
   for (const Diagnostic& one : run.model.diagnostics.list())
-    messages.push_back(message_json(severity_word(one.severity), to_string(one.code), one.where.line, one.message));
+    messages.push_back(
+        message_json(severity_word(one.severity), to_string(one.code), one.where.line, one.message));
   return messages;
 }
 
@@ -146,8 +152,8 @@ Json summary_json(const PageRun& run) {
     points += static_cast<long>(group.elements()) * group.element->traits().points;
   }
   add("geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
-  add("mesh", fmt::format("{} nodes, {} elements, {} integration points, {} unknowns", model.mesh.nodes(), elements,
-                          points, DofMap(model).dofs()));
+  add("mesh", fmt::format("{} nodes, {} elements, {} integration points, {} unknowns", model.mesh.nodes(),
+                          elements, points, DofMap(model).dofs()));
   const auto& states = run.stored.states();
   add("path", fmt::format("{} of {} stages, {} states kept", states.empty() ? 0 : states.back().stage + 1,
                           model.stages.size(), states.size()));
@@ -163,7 +169,8 @@ Json deck_json(const PageRun& run, std::vector<std::string>& omitted) {
   const std::string& deck = run.stored.source().deck;
   if (deck.size() <= kMostDeck) return clean(deck);
   const std::size_t end = deck.rfind('\n', kMostDeck);
-  omitted.push_back(fmt::format("the deck has {} kB: the page has its first {} kB", deck.size() / 1000, end / 1000));
+  omitted.push_back(
+      fmt::format("the deck has {} kB: the page has its first {} kB", deck.size() / 1000, end / 1000));
   return clean(std::string_view(deck).substr(0, end));
 }
 

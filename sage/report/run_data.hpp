@@ -8,7 +8,8 @@ namespace sage::report {
 
 // Model: groups, materials, stages, supports, loads, water, mesh.
 void add_model(const PageRun& run, Json& json);
-// States: displacements, fields at points, forces at the ends of structures.  Gives what there was no room for.
+// States: displacements, fields at points, forces at the ends of structures, as far as there is room beside what the page
+// has already.  Gives what there was no room for.
 std::vector<std::string> add_states(const PageRun& run, const PageOptions& options, Json& json);
 // What lies beside the result file and in it: summary, tables, messages, pictures, deck.
 std::vector<std::string> add_papers(const PageRun& run, Json& json);

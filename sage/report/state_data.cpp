@@ -12,19 +12,22 @@ namespace sage::report {
 
 namespace {
 
-constexpr std::size_t kRoom = 4000000, kRoomOfElement = 80;
+// With the script of 0.12 MB a page of one run has 4 MB at most, unless its model is large.
+constexpr std::size_t kRoom = 3850000, kRoomOfElement = 80;
 constexpr std::size_t kMostStates = 200;  // that are read, to keep the page's memory and the time bounded
 
 // From what is looked at most to what is looked at least.
-constexpr std::string_view kOrder[] = {"displacement",  "stress",      "head",          "pressure_head",
-                                       "excess_pressure", "pore_pressure", "traction",  "stress_level",
-                                       "status",        "plastic_strain", "velocity",   "relative_displacement",
-                                       "strain",        "factor_of_safety", "hydraulic_gradient", "total_stress"};
+constexpr std::string_view kOrder[] = {"displacement",   "stress",           "head",
+                                       "pressure_head",  "excess_pressure",  "pore_pressure",
+                                       "traction",       "stress_level",     "status",
+                                       "plastic_strain", "velocity",         "relative_displacement",
+                                       "strain",         "factor_of_safety", "hydraulic_gradient",
+                                       "total_stress"};
 
 // What the script makes of `stress` itself, and what tables of elements and increments are for.
 bool shown(const FieldEntry& field) {
-  constexpr std::string_view kDerived[] = {"mean_stress",         "deviator",        "principal_stress",
-                                           "stress_difference",   "principal_angle", "principal_direction_1",
+  constexpr std::string_view kDerived[] = {"mean_stress",          "deviator",        "principal_stress",
+                                           "stress_difference",    "principal_angle", "principal_direction_1",
                                            "principal_direction_3"};
   const bool placed = field.place() == FieldPlace::node || field.place() == FieldPlace::point;
   return placed && field.form != FieldForm::integer && field.kind != ElementKind::structure &&
@@ -41,25 +44,41 @@ bool has_values(const Model& model, const FieldEntry& field) {
                              [&](const Group& group) { return applies_to_area(model, group, field); });
 }
 
+// All components of a field, or one that was asked for.
+struct ShownField {
+  const FieldEntry* entry = nullptr;
+  std::vector<std::size_t> components{};
+
+  void add(std::size_t component) {
+    if (std::ranges::find(components, component) == components.end()) components.push_back(component);
+    std::ranges::sort(components);
+  }
+};
+using ShownFields = std::vector<ShownField>;
+
 // In the order of their use.
-FieldList fields_to_show(const Model& model, const FieldTable& table, const std::vector<std::string>& asked) {
-  FieldList list;
-  const auto add = [&](const FieldEntry* field) {
+ShownFields fields_to_show(const Model& model, const FieldTable& table, const std::vector<std::string>& asked) {
+  ShownFields list;
+  const auto add = [&](const FieldEntry* field, int component) {
     if (field == nullptr || !shown(*field) || !has_values(model, *field)) return;
-    if (std::ranges::find(list, field) == list.end()) list.push_back(field);
+    auto there = std::ranges::find(list, field, &ShownField::entry);
+    if (there == list.end()) there = list.insert(list.end(), ShownField{field});
+    for (std::size_t c = 0; c < field->size(); ++c)
+      if (component < 0 || c == static_cast<std::size_t>(component)) there->add(c);
   };
-  add(table.find("displacement"));
+  add(table.find("displacement"), -1);
   for (const std::string& name : asked)
-    if (const auto choice = table.choose(name)) add(choice->entry);
+    if (const auto choice = table.choose(name)) add(choice->entry, choice->component);
   if (!asked.empty()) return list;
-  for (const std::string_view name : kOrder) add(table.find(name));
+  for (const std::string_view name : kOrder) add(table.find(name), -1);
   for (const FieldEntry& field : table.rows())
-    if (field.name != "external_force" && field.name != "reaction") add(&field);
+    if (field.name != "external_force" && field.name != "reaction") add(&field, -1);
   return list;
 }
 
 // Of one state.
-std::size_t numbers_of(const Model& model, const FieldEntry& field, bool points) {
+std::size_t numbers_of(const Model& model, const ShownField& of, bool points) {
+  const FieldEntry& field = *of.entry;
   std::size_t places = 0;
   if (field.place() == FieldPlace::node) {
     places = static_cast<std::size_t>(model.mesh.nodes());
@@ -69,19 +88,19 @@ std::size_t numbers_of(const Model& model, const FieldEntry& field, bool points)
         places += static_cast<std::size_t>(group.elements()) *
                   static_cast<std::size_t>(points ? group.element->traits().points : 1);
   }
-  return places * field.size();
+  return places * of.components.size();
 }
 
 // What goes into the page.
 struct Plan {
-  FieldList fields;
+  ShownFields fields;
   std::vector<std::size_t> states;  // places in StoredResult::states()
   Precision precision = Precision::whole;
   bool points = true;  // else means of elements
 
   std::size_t bytes(const Model& model) const {
     std::size_t numbers = 0;
-    for (const FieldEntry* field : fields) numbers += numbers_of(model, *field, points);
+    for (const ShownField& field : fields) numbers += numbers_of(model, field, points);
     return numbers * states.size() * bytes_of(precision) * 4 / 3;
   }
 };
@@ -95,35 +114,38 @@ std::vector<std::size_t> ends_of_stages(const StoredResult& stored) {
   return ends;
 }
 
-std::string names_of_fields(const FieldList& fields, std::size_t first) {
+std::string names_of_fields(const ShownFields& fields, std::size_t first) {
   std::string names;
-  for (std::size_t i = first; i < fields.size(); ++i) names += (names.empty() ? "" : ", ") + fields[i]->name;
+  for (std::size_t i = first; i < fields.size(); ++i)
+    names += (names.empty() ? "" : ", ") + fields[i].entry->name;
   return names;
 }
 
 class Planner {
  public:
-  Planner(const PageRun& run, const PageOptions& options, FieldList fields) : run_(run) {
+  // used: bytes of the page so far.
+  Planner(const PageRun& run, const PageOptions& options, ShownFields fields, std::size_t used) : run_(run) {
     std::size_t elements = 0, points = 0;
     for (const Group& group : run.model.groups) {
       elements += static_cast<std::size_t>(group.elements());
       points += static_cast<std::size_t>(group.elements() * group.element->traits().points);
     }
-    const std::size_t mesh = 8 * elements + 10 * static_cast<std::size_t>(run.model.mesh.nodes());
     const std::size_t room = options.room > 0 ? options.room : std::max(kRoom, kRoomOfElement * elements);
-    room_ = room > mesh ? room - mesh : 0;
+    room_ = room > used ? room - used : 0;
     plan_.fields = std::move(fields);
     for (std::size_t i = 0; i < run.stored.states().size(); ++i) plan_.states.push_back(i);
     if (points > options.most_points) {
       plan_.points = false;
-      say(fmt::format("the model has {} integration points, more than {}: each element shows the mean of its points",
-                      points, options.most_points));
+      say(fmt::format(
+          "the model has {} integration points, more than {}: each element shows the mean of its points",
+          points, options.most_points));
     }
   }
 
   // Takes away, the least missed first, until it fits.  The displacement and the first field of the last state always stay.
   Plan plan(bool fields_were_asked) {
-    const std::size_t kept = fields_were_asked ? plan_.fields.size() : std::min<std::size_t>(plan_.fields.size(), 4);
+    const std::size_t kept =
+        fields_were_asked ? plan_.fields.size() : std::min<std::size_t>(plan_.fields.size(), 4);
     if (plan_.states.size() > kMostStates) keep_states(ends_of_stages(run_.stored), "ends of stages");
     if (!fits()) plan_.precision = Precision::fine;
     keep_fields(kept);
@@ -142,7 +164,7 @@ class Planner {
   bool fits() const { return plan_.bytes(run_.model) <= room_; }
   void say(std::string words) { omitted_.push_back(std::move(words)); }
   void keep_fields(std::size_t least) {
-    const FieldList before = plan_.fields;
+    const ShownFields before = plan_.fields;
     while (plan_.fields.size() > least && !fits()) plan_.fields.pop_back();
     if (plan_.fields.size() < before.size())
       say("there was no room for these fields: " + names_of_fields(before, plan_.fields.size()) +
@@ -150,7 +172,8 @@ class Planner {
   }
   void keep_states(std::vector<std::size_t> states, const char* words) {
     if (states.empty() || states.size() >= plan_.states.size()) return;
-    say(fmt::format("there was no room for all {} states: the page has the {} alone", plan_.states.size(), words));
+    say(fmt::format("there was no room for all {} states: the page has the {} alone", plan_.states.size(),
+                    words));
     plan_.states = std::move(states);
   }
 
@@ -161,7 +184,8 @@ class Planner {
 };
 
 // Values of one component, one place behind the other.
-std::vector<double> at_nodes(const Model& model, const Solution& now, const FieldEntry& field, std::size_t component) {
+std::vector<double> at_nodes(const Model& model, const Solution& now, const FieldEntry& field,
+                             std::size_t component) {
   const NodeViews views(model, now);
   const std::vector<char> active = active_nodes(model, *now.activity);
   std::vector<double> values(static_cast<std::size_t>(model.mesh.nodes()), NAN), one(field.size());
@@ -173,46 +197,50 @@ std::vector<double> at_nodes(const Model& model, const Solution& now, const Fiel
   return values;
 }
 
-// All components of a group's points; by component.
-std::vector<std::vector<double>> at_points(const Model& model, const GroupData& data, const FieldEntry& field,
+// The shown components of a group's points, or the means of its elements; by component.
+std::vector<std::vector<double>> at_points(const Model& model, const GroupData& data, const ShownField& field,
                                            bool points) {
   const int count = data.group->element->traits().points, elements = data.group->elements();
-  std::vector<std::vector<double>> values(field.size());
-  std::vector<double> one(field.size());
-  for (int e = 0; e < elements; ++e) {
-    std::vector<double> sum(field.size(), 0.0);
+  std::vector<std::vector<double>> values(field.components.size());
+  std::vector<double> one(field.entry->size());
+  for (int e = 0; e < elements; ++e)
     for (int p = 0; p < count; ++p) {
-      read_applying(field, PointState(model.mesh, data, static_cast<std::size_t>(e * count + p)), one.data());
-      for (std::size_t c = 0; c < one.size(); ++c) {
-        sum[c] += one[c] / count;
-        if (points) values[c].push_back(one[c]);
+      read_applying(*field.entry, PointState(model.mesh, data, static_cast<std::size_t>(e * count + p)),
+                    one.data());
+      for (std::size_t c = 0; c < values.size(); ++c) {
+        const double value = one[field.components[c]];
+        if (points)
+          values[c].push_back(value);
+        else if (p == 0)
+          values[c].push_back(value / count);
+        else
+          values[c].back() += value / count;
       }
     }
-    if (!points)
-      for (std::size_t c = 0; c < one.size(); ++c) values[c].push_back(sum[c]);
-  }
   return values;
 }
 
-Json field_json(const Model& model, const FieldEntry& field) {
+Json field_json(const Model& model, const ShownField& shown) {
+  const FieldEntry& field = *shown.entry;
   constexpr const char* kSigns[] = {"", "compression positive", "along the axes"};
   Json columns = Json::array();
-  for (std::size_t c = 0; c < field.size(); ++c) columns.push_back(field.column(c));
+  for (const std::size_t c : shown.components) columns.push_back(field.column(c));
   return {{"name", field.name},
           {"meaning", field.meaning},
           {"unit", clean(unit_text(field.dimension, model.units))},
           {"sign", kSigns[static_cast<std::size_t>(field.sign)]},
           {"place", field.place() == FieldPlace::node ? "node" : "point"},
-          {"vector", field.shape == FieldShape::vector},
+          {"vector", field.shape == FieldShape::vector && columns.size() == 2},
           {"columns", std::move(columns)},
           {"words", field.words}};
 }
 
 // [component] of nodes, or [group][component] of points: null where the group lacks the field or is not there.
-Json values_json(const Model& model, const Solution& now, const FieldEntry& field, const Plan& plan) {
+Json values_json(const Model& model, const Solution& now, const ShownField& shown, const Plan& plan) {
+  const FieldEntry& field = *shown.entry;
   Json all = Json::array();
   if (field.place() == FieldPlace::node) {
-    for (std::size_t c = 0; c < field.size(); ++c)
+    for (const std::size_t c : shown.components)
       all.push_back(packed(at_nodes(model, now, field, c), plan.precision));
     return all;
   }
@@ -220,7 +248,7 @@ Json values_json(const Model& model, const Solution& now, const FieldEntry& fiel
     Json group;
     if (now.activity->group[g] != 0 && applies_to_area(model, model.groups[g], field)) {
       group = Json::array();
-      for (const std::vector<double>& values : at_points(model, now.groups()[g], field, plan.points))
+      for (const std::vector<double>& values : at_points(model, now.groups()[g], shown, plan.points))
         group.push_back(packed(values, plan.precision));
     }
     all.push_back(std::move(group));
@@ -232,14 +260,10 @@ Json state_json(const Model& model, const Frame& frame, const Plan& plan) {
   const Solution now = frame.view();
   const StepReport& step = frame.report();
   Json values = Json::object(), active = Json::array();
-  for (const FieldEntry* field : plan.fields) values[field->name] = values_json(model, now, *field, plan);
+  for (const ShownField& field : plan.fields) values[field.entry->name] = values_json(model, now, field, plan);
   for (const char there : now.activity->group) active.push_back(there != 0 ? 1 : 0);
-  return {{"stage", step.stage + 1},
-          {"increment", step.increment},
-          {"increments", step.increments},
-          {"load_factor", step.load_factor},
-          {"active", std::move(active)},
-          {"values", std::move(values)}};
+  return {{"stage", step.stage + 1},         {"increment", step.increment}, {"increments", step.increments},
+          {"load_factor", step.load_factor}, {"active", std::move(active)}, {"values", std::move(values)}};
 }
 
 Json quantities_json(const Model& model) {
@@ -300,16 +324,20 @@ std::vector<std::string> page_fields(const Model& model) {
   std::vector<std::string> names;
   const FieldTable table = fields_of(model);
   for (const FieldEntry& field : table.rows())
-    if (shown(field) && has_values(model, field)) names.push_back(field.name);
+    if (shown(field) && has_values(model, field)) {
+      names.push_back(field.name);
+      for (std::size_t c = 0; c < field.size() && field.size() > 1; ++c)
+        names.push_back(field.name + "_" + field.components[c].name);
+    }
   return names;
 }
 
 std::vector<std::string> add_states(const PageRun& run, const PageOptions& options, Json& json) {
   const FieldTable table = fields_of(run.model);
-  Planner planner(run, options, fields_to_show(run.model, table, options.fields));
+  Planner planner(run, options, fields_to_show(run.model, table, options.fields), json.dump().size());
   const Plan plan = planner.plan(!options.fields.empty());
   Json fields = Json::array(), states = Json::array();
-  for (const FieldEntry* field : plan.fields) fields.push_back(field_json(run.model, *field));
+  for (const ShownField& field : plan.fields) fields.push_back(field_json(run.model, field));
   Envelope envelope;
   const std::vector<std::size_t> ends = ends_of_stages(run.stored);
   const bool structures = !end_quantities(run.model).empty();

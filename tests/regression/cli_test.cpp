@@ -62,6 +62,7 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
        {"DECK", "--stage", "--tolerance", "--start", "--smallest", "--largest", "--iterations", "--cuts",
         "--dilation", "--from", "--reduce", "--group", "--interfaces", "--structures", "--converge",
         "--max-dofs", "--output"}},
+      {"report", {"RUN", "--field", "--size", "--name", "--output", "side by side"}},
       {"sweep", {"STUDY", "--collect", "--jobs", "--part", "--parallel", "--slurm", "--output", "Examples"}},
       {"bounds",
        {"DECK", "--of", "--stage", "--from", "--elements", "--gap", "--safety", "--tolerance", "--digits",

@@ -39,6 +39,8 @@ MANUAL = {
     "plots": ([f"sagefe run {CHAPTER}/dp_285/deck.dat -o out -q", "sagefe new deck footing", "sagefe run footing.dat -o out -q", "mkdir triaxial",
                f"cp {CHAPTER}/dp_285/deck.dat triaxial/", f"cp {CHAPTER}/friction_285_nu0333/deck.dat a.dat",
                f"cp {CHAPTER}/friction_285_nu025/deck.dat b.dat", "sagefe run a.dat b.dat -o out -q --result --states 1:5 --states strain=.05,.1"], {}),
+    "report": ([f"cp {CHAPTER}/friction_285_nu025/deck.dat deck.dat", "cp deck.dat full.dat", "cp deck.dat b_bar.dat",
+                "sagefe run full.dat b_bar.dat -o out -q --result"], {}),
     "safety": (["sagefe new deck slope", "sagefe new deck excavation -o wall.dat"], {}),
     "stress": (["mkdir docs"], {}),
     "structures": ([], {}),

@@ -178,6 +178,14 @@ export class Chart {
 
 const full = (column) => column.name + (column.unit && column.unit !== "-" ? ` [${column.unit}]` : "");
 
+// Of one axis with several columns: their common unit once.
+function label_of(columns) {
+  const units = new Set(columns.map((c) => c.unit)), names = columns.map((c) => c.name).join(", ");
+  if (columns.length < 2 || units.size > 1) return columns.map(full).join(", ");
+  const unit = columns[0].unit && columns[0].unit !== "-" ? ` [${columns[0].unit}]` : "";
+  return (names.length > 30 ? columns.map((c) => c.name.slice(0, 14)).join(", ") : names) + unit;
+}
+
 // What a table is best drawn as: names of x and y, and whether y is on a logarithmic axis.
 function usual(table) {
   const has = (name) => table.columns.some((c) => c.name === name), names = table.columns.map((c) => c.name);
@@ -189,7 +197,7 @@ function usual(table) {
     const way = most("uy") >= most("ux") ? "y" : "x";
     return {x: "u" + way, y: ["f" + way]};
   }
-  if (has("factor")) return {x: "factor", y: names.filter((n) => n.startsWith("largest_displacement")).slice(0, 1)};
+  if (has("factor") && has("displacement")) return {x: "displacement", y: ["factor"], points: true};
   const rest = names.filter((n) => n !== "stage" && n !== "increment");
   return {x: "row", y: rest.slice(0, 1)};
 }
@@ -215,7 +223,7 @@ export class TableCard {
       select("y", names.map((n) => [n, n]), this.y[0], (v) => { this.y[0] = v; this.draw(); }),
       select("and", [["", "none"], ...names.map((n) => [n, n])], this.y[1] || "", (v) => { this.y = v ? [this.y[0], v] : [this.y[0]]; this.draw(); }),
       this.log_x_box, this.log_y_box, ...this.chart.buttons());
-    const title = tables[0].table.title === tables[0].run.title ? name : `${name}: ${tables[0].table.title}`;
+    const own = tables[0].table.title, title = !own || own === tables[0].run.title ? name : `${name}: ${own}`;
     this.root = h("section", {class: "card", "data-table": name}, h("h3", {}, title), second, this.chart.box, this.legend, this.chart.readout);
   }
   draw() {
@@ -231,7 +239,7 @@ export class TableCard {
       });
     }
     const columns = this.tables[0].table.columns, of = (name) => columns.find((c) => c.name === name);
-    this.chart.set(series, {x: this.x === "row" ? "row of the table" : full(of(this.x)), y: this.y.map((n) => (of(n) ? full(of(n)) : n)).join(", "), log_y: this.log_y, log_x: this.log_x});
+    this.chart.set(series, {x: this.x === "row" ? "row of the table" : full(of(this.x)), y: label_of(this.y.map(of).filter(Boolean)), log_y: this.log_y, log_x: this.log_x});
     this.legend.replaceChildren(this.chart.legend());
   }
 }

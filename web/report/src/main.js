@@ -28,9 +28,11 @@ class Page {
                       ["structures", "Structures", this.structure_section()], ["pictures", "Pictures", this.picture_section()],
                       ["model", "Model", this.model_section()], ["messages", "Messages", this.message_section()], ["deck", "Deck", this.deck_section()]]
                          .filter(([, , content]) => content);
-    const titles = this.all.map((run) => run.title);
+    const alike = this.all.some((run, i) => this.all.findIndex((other) => other.title === run.title) !== i);
+    const titles = this.all.map((run) => (alike ? `${run.name}: ${run.title}` : run.title));
+    const shown = titles.map((t) => (titles.length > 1 && t.length > 60 ? t.slice(0, 57) + "..." : t));
     this.root.replaceChildren(
-      h("header", {}, h("h1", {}, titles[0], ...titles.slice(1).flatMap((t) => [h("span", {class: "beside"}, " | "), t])),
+      h("header", {}, h("h1", {title: titles.join(" | ")}, shown[0], ...shown.slice(1).flatMap((t) => [h("span", {class: "beside"}, " | "), t])),
         h("nav", {"aria-label": "sections"}, sections.map(([id, name]) => h("a", {href: "#" + id}, name)),
           button("Dark or light", "change between the dark and the light look", () => this.change_look()), button("Print", "print the page, or save it as PDF", () => window.print()))),
       ...sections.map(([id, name, content]) => h("section", {id, "aria-labelledby": id + "-title"}, h("h2", {id: id + "-title"}, name), content)),
@@ -174,7 +176,7 @@ class Page {
 
   picture_section() {
     if (!this.runs.some((run) => run.json.pictures.length)) return null;
-    return this.per_run((run) => run.json.pictures.map((p) => h("figure", {class: "picture"}, h("img", {src: run.picture_url(p), alt: p.name}), h("figcaption", {}, p.name))));
+    return this.per_run((run) => h("div", {class: "pictures"}, run.json.pictures.map((p) => h("figure", {class: "picture"}, h("img", {src: run.picture_url(p), alt: p.name}), h("figcaption", {}, p.name)))));
   }
 
   model_section() {

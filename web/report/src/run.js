@@ -3,13 +3,14 @@ import {bytes, numbers, remembered} from "./decode.js";
 import {choices} from "./fields.js";
 
 class Group {
-  constructor(json, index) {
+  constructor(json, index, nodes) {
     Object.assign(this, json);
     this.index = index;
     this.connect = numbers(json.connect);
     this.numbers = numbers(json.numbers);
     this.area = json.lattice !== undefined && json.lattice.length > 0;
     if (json.entries) this.entries = numbers(json.entries);
+    else if (this.area) this.entries = this.connect.map((node) => node + json.material * nodes);
     this.places = this.area ? json.lattice.length / json.nodes : 0;
   }
   node(e, i) { return this.connect[e * this.nodes + i]; }
@@ -24,7 +25,8 @@ export class Run {
     this.x = numbers(json.nodes.x);
     this.y = numbers(json.nodes.y);
     this.number = numbers(json.nodes.number);
-    this.groups = json.groups.map((g, i) => new Group(g, i));
+    this.groups = json.groups.map((g, i) => new Group(g, i, this.x.length));
+    this.entries = json.groups.some((g) => g.entries) ? json.entries : this.x.length * json.materials.length;
     this.states = json.states;
     this.fields = json.fields;
     this.choices = choices(json.fields);
@@ -117,7 +119,7 @@ export class Run {
   // Means of elements, averaged at nodes over the elements of one material: as sagefe's pictures are drawn.
   values_of_points(state, choice) {
     const n = this.components(choice.field);
-    const sums = Array.from({length: n}, () => new Float64Array(this.json.entries)), uses = new Float64Array(this.json.entries);
+    const sums = Array.from({length: n}, () => new Float64Array(this.entries)), uses = new Float64Array(this.entries);
     const single = this.fields.find((f) => f.name === choice.field).words.length > 0;
     const has = this.groups.map((group) => {
       const raw = [];

@@ -363,7 +363,12 @@ export class View {
         }
     }
     this.outline_key = key;
-    this.outline_kept = [...sides.values()].filter((s) => s.of.length === 1 || s.of.some((g) => g !== s.of[0]))
+    // Where water and soil have elements on one another, the soil decides.
+    const soil = (list) => {
+      const solid = list.filter((g) => this.run.groups[g].kind === "solid");
+      return solid.length ? solid : list;
+    };
+    this.outline_kept = [...sides.values()].map((s) => ({nodes: s.nodes, of: soil(s.of)})).filter((s) => s.of.length === 1 || s.of.some((g) => g !== s.of[0]))
                             .map((s) => ({nodes: s.nodes, outer: s.of.length === 1}));
     return this.outline_kept;
   }
