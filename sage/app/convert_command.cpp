@@ -13,8 +13,9 @@
 #include "sage/app/input.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "sage/deck/text.hpp"
 #include "sage/exchange/convert.hpp"
-#include "sage/exchange/msh_model.hpp"
+#include "sage/exchange/mesh_model.hpp"
 #include "sage/model_file/model_file.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/values.hpp"
@@ -26,7 +27,7 @@ namespace {
 struct ConvertOptions {
   std::string from, to;
   InputOptions input;
-  MshOptions mesh;
+  ForeignMeshOptions mesh;
   bool wide = false, narrow = false;
 };
 
@@ -34,8 +35,13 @@ std::string ending(const std::string& path) {
   return std::filesystem::path(path).extension().string();
 }
 
+bool is_mesh(const std::string& path) {
+  const std::string end = lower_case(ending(path));
+  return end == ".msh" || end == ".inp";
+}
+
 Model read_model(const ConvertOptions& options, const Catalogue& catalogue) {
-  if (ending(options.from) != ".msh")
+  if (!is_mesh(options.from))
     return build_model(read_input(options.from, options.input), catalogue, options.input.build);
   const BuildOptions& build = options.input.build;
   if (build.element != 0 || build.refine != 0 || build.refine_graded != 0 || !build.gradings.empty())
@@ -44,9 +50,10 @@ Model read_model(const ConvertOptions& options, const Catalogue& catalogue) {
   std::ifstream in(options.from, std::ios::binary);
   if (!in) throw InputError("S101", {options.from, 0, 0, 0}, "the file can't be read");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  MshOptions mesh = options.mesh;
-  if (options.input.build.geometry == 2) mesh.geometry = Geometry::axisymmetric;
-  return model_from_msh(text, options.from, catalogue, mesh);
+  ForeignMeshOptions mesh = options.mesh;
+  mesh.geometry_given = build.geometry != 0;
+  if (build.geometry == 2) mesh.geometry = Geometry::axisymmetric;
+  return model_from_mesh(text, options.from, catalogue, mesh);
 }
 
 // `ccx STEM` writes its results to STEM.dat, whatever is there.
@@ -97,16 +104,49 @@ int convert(const ConvertOptions& options, const Catalogue& catalogue) {
   return options.input.strict && model.diagnostics.warnings() > 0 ? kInput : kOk;
 }
 
+// --fix NAME=xy and its like: what named parts of a mesh are used for.
+void add_use(CLI::App& parser, ForeignMeshOptions& mesh, const std::string& kind, const std::string& about) {
+  parser
+      .add_option_function<std::vector<std::string>>(
+          "--" + kind,
+          [&mesh, kind](const std::vector<std::string>& texts) {
+            for (const std::string& text : texts) mesh.uses.push_back(mesh_use(kind, text));
+          },
+          "from a mesh: " + about)
+      ->allow_extra_args(false)
+      ->check([kind](const std::string& text) {
+        try {
+          mesh_use(kind, text);
+          return std::string();
+        } catch (const std::invalid_argument& error) {
+          return std::string(error.what());
+        }
+      });
+}
+
+void add_mesh_options(CLI::App& parser, ForeignMeshOptions& mesh) {
+  parser.add_option("--young", mesh.youngs_modulus, "from a mesh: Young's modulus of all groups")
+      ->check(number_in(1e-99, 1e99, "a positive number below 1e99"));
+  parser.add_option("--poisson", mesh.poissons_ratio, "from a mesh: Poisson's ratio of all groups");
+  parser.add_option("--weight", mesh.unit_weight, "from a mesh: unit weight of all groups");
+  parser.add_option("--water-weight", mesh.water_weight, "from a mesh: unit weight of water")
+      ->check(number_in(0.0, 1e99, "a number from 0 to 1e99"));
+  add_use(parser, mesh, "fix", "NAME=x, NAME=y or NAME=xy holds the nodes of a curve, point or set");
+  add_use(parser, mesh, "pressure", "NAME=VALUE presses on a curve, set or surface");
+  add_use(parser, mesh, "force", "NAME=FX,FY pushes a point or a set of one node");
+  add_use(parser, mesh, "beam", "NAME: a wall or lining along a curve or set");
+  add_use(parser, mesh, "bar", "NAME: bars along a curve or set");
+  add_use(parser, mesh, "water", "NAME: the water line along a curve or set");
+}
+
 }  // namespace
 
 Command convert_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<ConvertOptions>();
-  parser.add_option("IN", options->from, "deck of any layout, or .msh (MSH 4.1 ASCII)")->required();
+  parser.add_option("IN", options->from, "deck of any layout, or a mesh: .msh (MSH 4.1 or 2.2) or .inp")
+      ->required();
   parser.add_option("OUT", options->to, "file to write: .dat, .sage.toml, .msh or .inp")->required();
-  parser.add_option("--young", options->mesh.youngs_modulus, "from .msh: Young's modulus of all groups")
-      ->check(number_in(1e-99, 1e99, "a positive number below 1e99"));
-  parser.add_option("--poisson", options->mesh.poissons_ratio, "from .msh: Poisson's ratio of all groups");
-  parser.add_option("--weight", options->mesh.unit_weight, "from .msh: unit weight of all groups");
+  add_mesh_options(parser, options->mesh);
   CLI::Option* const wide = parser.add_flag(
       "--wide", options->wide, "to .dat: fields of ten and twenty columns (layout sage1_wide) in any case");
   parser

@@ -7,7 +7,7 @@
 
 #include "sage/exchange/boundary_edges.hpp"
 #include "sage/exchange/convert.hpp"
-#include "sage/exchange/msh_file.hpp"
+#include "sage/exchange/foreign_mesh.hpp"
 #include "sage/exchange/msh_interfaces.hpp"
 #include "sage/model/foreign_element.hpp"
 
@@ -56,7 +56,7 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
 // A curve of lines through some nodes (`side`) of each element of a group.  numbers: of the lines.
 Block side_lines(const Model& model, const Group& group, const std::vector<int>& side,
                  const std::vector<int>& numbers) {
-  Block block{1, msh::line_type(side.size()), 0, "", {}};
+  Block block{1, gmsh_line_type(side.size()), 0, "", {}};
   for (int e = 0; e < group.elements(); ++e) {
     std::vector<int> row{numbers[static_cast<std::size_t>(e)]};
     for (int i : side) row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
@@ -71,7 +71,7 @@ std::vector<Block> interfaces(const Model& model, Diagnostics& diagnostics, int&
   for (const Group& group : model.groups) {
     if (!group.interface() || group.elements() == 0) continue;
     const msh::InterfaceSides sides = msh::interface_sides(*group.entry);
-    if (msh::line_type(sides.bottom.size()) == 0) {
+    if (gmsh_line_type(sides.bottom.size()) == 0) {
       diagnostics.add({Severity::warning,
                        "S720",
                        group.where,
@@ -97,7 +97,7 @@ void add_structures(const Model& model, std::vector<Block>& blocks, Diagnostics&
     if (!group.structure() || group.elements() == 0) continue;
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->vtk);
     const bool point = order.size() == 1;
-    if (!point && msh::line_type(order.size()) == 0) {
+    if (!point && gmsh_line_type(order.size()) == 0) {
       diagnostics.add({Severity::warning,
                        "S720",
                        group.where,
@@ -109,7 +109,7 @@ void add_structures(const Model& model, std::vector<Block>& blocks, Diagnostics&
     blocks.push_back(side_lines(model, group, order, group.element_numbers));
     if (point) {
       blocks.back().dimension = 0;
-      blocks.back().type = msh::kPoint;
+      blocks.back().type = kGmshPoint;
     }
     blocks.back().name = unlike(group, {blocks.begin(), blocks.end() - 1});
   }
@@ -139,10 +139,10 @@ std::vector<Block> supports(const Model& model, int first_number, int tags_befor
       if (name != "fix_x") beside.erase({node, 1});
     }
     const bool corners = model.groups[static_cast<std::size_t>(edge.group)].entry->gmsh.type == 0;
-    if (corners || msh::line_type(edge.nodes.size()) == 0) edge.nodes.resize(2);
+    if (corners || gmsh_line_type(edge.nodes.size()) == 0) edge.nodes.resize(2);
     Block& block = by_name[{name, edge.nodes.size()}];
     block.dimension = 1;
-    block.type = msh::line_type(edge.nodes.size());
+    block.type = gmsh_line_type(edge.nodes.size());
     block.name = name;
     block.tag = tags.try_emplace(name, tags_before + static_cast<int>(tags.size()) + 1).first->second;
     std::vector<int> row{first_number++};

@@ -467,13 +467,15 @@ constexpr MessageEntry kMessages[] = {
      "mesh hold "
      "all solids that the card is about."},
     {"S251", "a mesh lies in another plane",
-     "A model in two dimensions lies in the plane of x and y, z = 0. The nodes of this mesh have other heights "
-     "z: it was drawn in the x-z or y-z plane, lies at another height, or is a surface in space.",
-     "Draw the geometry with z = 0 and y upwards, or turn or move it in the program that made the mesh (Gmsh: "
-     "Rotate, Translate)."},
-    {"S252", "a surface belongs to two physical groups",
+     "A model in two dimensions lies in the plane of x and y. The nodes of this mesh have several heights z: "
+     "it "
+     "was drawn in the x-z or y-z plane, or is a surface in space.",
+     "Draw the geometry with one z and y upwards, or turn it in the program that made the mesh (Gmsh: "
+     "Rotate)."},
+    {"S252", "a surface belongs to two groups",
      "Each surface of a mesh becomes part of one element group with one material, and this one has two names.",
-     "Give the surface one physical group. Curves may belong to several."},
+     "Give the surface one physical group, or in an .inp file name the sets of the groups by *SOLID SECTION. "
+     "Curves may belong to several."},
     {"S253", "an element can't take the place of the deck's",
      "--element and --element-b replace quadrilaterals by others with as many nodes or more: the middle nodes "
      "that the cards lack are made. Nodes that the cards give are never dropped, and triangles stay.",
@@ -1253,18 +1255,18 @@ constexpr MessageEntry kMessages[] = {
      "Check its parameters on the converted deck (sagefe convert DECK own.dat), and choose another law "
      "there if needed."},
     {"S704", "a mesh was translated with a change",
-     "Elements were turned round, degenerate ones became triangles, or a boundary without a counterpart "
-     "became a support.",
+     "Elements were turned round, degenerate ones became triangles, nodes of no element were left out, or a "
+     "boundary without a counterpart became a support.",
      "Nothing, where the message describes what is meant; look at the picture of the mesh."},
     {"S705", "load factors of another program",
      "Load factors or a method of that program are applied in another way than its name suggests; the "
      "message says how.",
      "Compare loads of each stage in the listing with what the deck is meant to say."},
     {"S710", "a mesh file can't be read",
-     "The file is not a Gmsh mesh of version 4.1 in ASCII, is cut short, or has elements without a "
-     "counterpart (of three dimensions or of high order).",
-     "Save it from Gmsh with Mesh.MshFileVersion = 4.1 and Mesh.Binary = 0, as triangles or "
-     "quadrilaterals."},
+     "The file is no Gmsh mesh of version 4.1 or 2.2 and no Abaqus or CalculiX input, is cut short, or holds "
+     "elements or keywords that are not supported.",
+     "Correct the line that the message names. From Gmsh save with Mesh.MshFileVersion = 4.1, as triangles or "
+     "quadrilaterals. Write files that *INCLUDE names, and generated nodes and elements, into the file."},
     {"S711", "the mesh holds no surface",
      "Only curves and points are in the file: physical groups of curves alone, or the mesh was not made "
      "in two dimensions.",
@@ -1273,10 +1275,14 @@ constexpr MessageEntry kMessages[] = {
     {"S712", "a constant of the mesh's material is out of range",
      "A mesh carries no material, so options give one; this value can't be.",
      "Young's modulus above 0, Poisson's ratio between -1 and 0.5."},
-    {"S713", "a curve of the mesh is left out",
-     "Physical curves become supports and pressures by their names, and this name says neither, or the "
-     "curve lies on no element.",
-     "Name curves fix_x, fix_y, fix_xy or pressure=VALUE, or add the cards to the deck by hand."},
+    {"S713", "a part of the mesh is left out",
+     "Named curves become supports, pressures, structures and water lines by options or by their names, and "
+     "this "
+     "name has no such meaning, or the curve lies on no element. Elements of other types and keywords besides "
+     "nodes, elements, sets and surfaces are left out too.",
+     "Use the curve with --fix, --pressure, --beam, --bar or --water of sagefe convert, or name it fix_x, "
+     "fix_y, "
+     "fix_xy or pressure=VALUE in the mesh."},
     {"S714", "the two sides of a joint do not match",
      "Lines named interface_bottom=NAME and interface_top=NAME are the two sides of one joint: each line needs "
      "a "
@@ -1333,6 +1339,11 @@ constexpr MessageEntry kMessages[] = {
     {"S738", "another sweep works on this study",
      "The file with finished cases is in use by another process with the same study and output folder.",
      "Wait for it, or give another folder, -o."},
+    {"S739", "a named part of the mesh can't be used so",
+     "An option of sagefe convert names a curve, point or set that the mesh lacks, or one that does not fit "
+     "the "
+     "use: a force needs one node, a structure and a pressure need lines, a water line one height for each x.",
+     "Choose one of the names that the message lists, or another option."},
     // S8: pieces from outside of the program.
     {"S801", "the deck needs a plug-in that is not loaded",
      "A line \"* plugin: NAME\" before the first card names a plug-in that the deck was written for. A deck "

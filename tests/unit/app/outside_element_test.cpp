@@ -13,7 +13,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "sage/exchange/convert.hpp"
-#include "sage/exchange/msh_model.hpp"
+#include "sage/exchange/mesh_model.hpp"
 #include "tests/install/consumer/tri10.hpp"
 #include "tests/studies/scenes/scenes.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -154,7 +154,7 @@ TEST(OutsideElement, IsWrittenWholeWhereItsEntrySaysHow) {
   const std::string msh = msh_text(model, model.diagnostics);
   EXPECT_EQ(count(msh, "\n2 1 21 8\n"), 1u);
   EXPECT_GT(count(msh, " 26 2\n"), 0u);  // supported sides: lines of four nodes
-  const Model back = model_from_msh(msh, "back.msh", catalogue, {});
+  const Model back = model_from_mesh(msh, "back.msh", catalogue, {});
   ASSERT_EQ(back.groups.size(), 1u);
   EXPECT_EQ(back.groups.front().element_code, kCode);
   EXPECT_EQ(back.groups.front().nodes, nodes);
