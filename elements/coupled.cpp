@@ -3,20 +3,12 @@
 
 #include <numeric>
 
+#include "elements/pore_field.hpp"
 #include "elements/solid_entry.hpp"
 
 namespace sage {
 
 namespace {
-
-UnknownField excess_pressure_field() {
-  return {.name = "excess_pressure",
-          .dimension = Dimension::stress,
-          .load = "outflow",
-          .load_dimension = Dimension::volume,
-          .balanced = false,
-          .of_pores = true};
-}
 
 template <class Shape>
 ElementEntry coupled_shape(ElementEntry entry) {

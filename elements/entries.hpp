@@ -31,6 +31,7 @@ ElementEntry tri6_entry();
 ElementEntry tri15_entry();
 ElementEntry interface4_entry();
 ElementEntry interface6_entry();
+ElementEntry interface6p4_entry();
 ElementEntry flow_quad4_entry();
 ElementEntry flow_quad8_entry();
 ElementEntry flow_quad9_entry();

@@ -1,7 +1,9 @@
 // Catalogue entries of the interfaces.
 #include <utility>
 
+#include "elements/coupled_interface.hpp"
 #include "elements/entries.hpp"
+#include "elements/pore_field.hpp"
 #include "elements/interface.hpp"
 
 namespace sage {
@@ -15,6 +17,15 @@ Choice interface(Formulation formulation, std::string_view full_name, InterfaceR
             if (geometry == Geometry::plane_strain)
               return std::make_unique<Interface<Line, PlaneStrain>>(full_name, rule);
             return std::make_unique<Interface<Line, Axisymmetric>>(full_name, rule);
+          }};
+}
+
+Choice coupled_interface(Formulation formulation, std::string_view full_name, InterfaceRule rule) {
+  formulation.points = 3;
+  return {std::move(formulation), [full_name, rule](Geometry geometry) -> std::unique_ptr<Element> {
+            if (geometry == Geometry::plane_strain)
+              return std::make_unique<CoupledInterface<PlaneStrain>>(full_name, rule);
+            return std::make_unique<CoupledInterface<Axisymmetric>>(full_name, rule);
           }};
 }
 
@@ -63,6 +74,20 @@ ElementEntry interface6_entry() {
        interface<Line3>({2, "Gauss", "three points"}, "interface6 Gauss", InterfaceRule::gauss),
        interface<Line3>({3, "Newton-Cotes", "Simpson; a pair at r = 0 has no stiffness"},
                         "interface6 Newton-Cotes", InterfaceRule::newton_cotes)});
+}
+
+ElementEntry interface6p4_entry() {
+  ElementEntry entry = with_line<Line3>(
+      {.name = "interface6p4",
+       .summary = "consolidation: interface6 with pore pressures on both sides, tight, leaking or open"});
+  entry.unknowns = {{displacement_field()}, {excess_pressure_field(), {0, 1, 2, 3}}};
+  return element_entry(
+      std::move(entry),
+      {coupled_interface(
+           {1, "row-sum",
+            "points at the pairs, weight integral N dA with r inside; three Gauss points at r = 0"},
+           "interface6p4 row-sum", InterfaceRule::row_sum),
+       coupled_interface({2, "Gauss", "three points"}, "interface6p4 Gauss", InterfaceRule::gauss)});
 }
 
 }  // namespace sage

@@ -50,6 +50,7 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(61, quad8p4_entry());
   catalogue.elements.add(62, quad9p4_entry());
   catalogue.elements.add(63, tri6p3_entry());
+  catalogue.elements.add(64, interface6p4_entry());
   catalogue.elements.add(31, bar2_entry());
   catalogue.elements.add(32, bar3_entry());
   catalogue.elements.add(33, spring2_entry());

@@ -17,6 +17,13 @@ const std::vector<Parameter>& rows() {
   return table;
 }
 
+const std::vector<Parameter>& joint_rows() {
+  static const std::vector<Parameter> table = {
+      required("conductance", Dimension::none,
+               "permeability over thickness, 1/time: what crosses per area for a drop of head of 1; 0 = tight")};
+  return table;
+}
+
 }  // namespace
 
 PoreFlow::PoreFlow(const Matrix2& mobility, double storage) : D_(Matrix<3>::Zero()) {
@@ -31,6 +38,16 @@ MaterialEntry pore_flow_entry() {
                         const double bulk = p.not_negative("water_bulk");
                         return std::make_unique<PoreFlow>(permeability_of(p) / p.water_unit_weight(),
                                                           bulk > 0.0 ? 1.0 / bulk : 0.0);
+                      }};
+  entry.of_pores = true;
+  return entry;
+}
+
+MaterialEntry pore_joint_entry() {
+  MaterialEntry entry{"pore_joint", "water that crosses an interface of consolidating soil", 1, joint_rows(),
+                      [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
+                        const Parameters p(joint_rows(), values, units);
+                        return std::make_unique<PoreJoint>(p.not_negative("conductance") / p.water_unit_weight());
                       }};
   entry.of_pores = true;
   return entry;

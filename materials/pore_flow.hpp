@@ -24,6 +24,24 @@ class PoreFlow final : public Law<3> {
   Matrix<3> D_;
 };
 
+// Water that crosses an interface: strain = drop of p, stress = volume per area and time.
+class PoreJoint final : public Law<1> {
+ public:
+  // conductance: over gamma_w, not negative.                                     [length / (stress time)]
+  explicit PoreJoint(double conductance) : conductance_(conductance) {}
+  LawTraits traits() const override { return {.symmetric = true, .linear = true}; }
+  Outcome update(const PointIn<1>& in, PointOut<1>& out) const override {
+    out.sigma = in.sigma0 + conductance_ * in.deps;
+    out.D(0, 0) = conductance_;
+    out.status = PointStatus::elastic;
+    return Outcome::ok;
+  }
+
+ private:
+  double conductance_;
+};
+
 MaterialEntry pore_flow_entry();
+MaterialEntry pore_joint_entry();
 
 }  // namespace sage

@@ -49,6 +49,7 @@ void register_materials(Catalogue& catalogue) {
   catalogue.materials.add(41, darcy_entry());
   catalogue.materials.add(42, darcy_free_surface_entry());
   catalogue.materials.add(43, pore_flow_entry());
+  catalogue.materials.add(44, pore_joint_entry());
 }
 
 }  // namespace sage

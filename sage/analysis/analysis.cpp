@@ -179,11 +179,13 @@ bool Analysis::Stages::take_increment() {
   report.increment = done_.increment + 1;
   report.increments = stage.increments;
   report.load_factor = report.started_at = state_.reached;
+  report.early = state_.early;
   if (!control_.take_increment(report)) {
     fail(report);
     return false;
   }
-  const bool ends_stage = report.increment == stage.increments;
+  if (state_.path.pores.ended) report.increments = report.increment;
+  const bool ends_stage = report.increment == report.increments;
   if (ends_stage && settings_.trials == nullptr && done_.stage + 1 == stages()) {
     const Profile::Scope scope(run_.profile(), phase::kChecks);
     system_.release_solver();
@@ -231,11 +233,13 @@ void Analysis::Stages::end_stage() {
                              {result_.motion, sums.out_of_balance, system_.digits(), path.path_error,
                               path.loose_part, path.relaxed, control_.force_left()},
                              assembly));
+    run_.warn(PoreSteps::remarks(run_));
     run_.warn(gradient_warnings(model_, stage, system_.activity()));
     run_.warn(free_surface_warnings(model_, stage, assembly));
     if (settings_.stream_function) run_.warn(stream_warnings(model_, stage, solution()));
   }
   observer_list_.tell([&](Observer& o) { o.on_stage_end(model_, s, sums, solution()); });
+  state_.early += (1.0 - state_.reached) * stage.duration;
   done_ = {s + 1, 0};
   has_begun_ = false;
 }

@@ -90,7 +90,7 @@ std::vector<Diagnostic> short_step_warnings(const Model& model, const Stage& sta
   double least = 0.0;
   Eigen::Matrix2Xd x;
   for (const GroupData& data : assembly.groups()) {
-    if (!data.active || !data.group->entry->has_pores()) continue;
+    if (!data.active || !data.group->solid() || !data.group->entry->has_pores()) continue;
     const int corners = data.group->entry->corners;
     for (int e = 0; e < data.group->elements(); ++e) {
       element_coordinates(model.mesh, *data.group, e, x);
@@ -132,7 +132,7 @@ std::vector<Diagnostic> oscillation_warnings(const Model& model, const Stage& st
   const auto dof_of = [&](int node) { return assembly.dof_map().of(node, field); };
   const auto visit = [&](auto&& use) {
     for (const GroupData& data : assembly.groups()) {
-      if (!data.active || !data.group->entry->has_pores()) continue;
+      if (!data.active || !data.group->solid() || !data.group->entry->has_pores()) continue;
       const int corners = data.group->entry->corners;
       for (int e = 0; e < data.group->elements(); ++e)
         for (int i = 0; i < corners; ++i)

@@ -71,6 +71,7 @@ struct StepReport {
   int increment = 0;  // 1-based within the stage; 0 = its start
   int increments = 0;
   double load_factor = 0.0;  // part of the stage applied, 0 .. 1
+  double early = 0.0;        // time by which stages before ended early
   double started_at = -1.0;  // load factor at the start of the increment; negative = increments are equal
   double failed_at = 2.0;    // load factor of the last attempt that found no equilibrium; 2 = none
   // After a failure: stiffness along the motion, as a share of the largest in the stage; negative = not known.

@@ -44,8 +44,7 @@ void evaluate_again(const RunParts& run, const RunPlace& place, bool factorised)
   if (!within && !factorised) return;
   if (within && system.assembly().wants_step_time()) {
     const double reached = run.end_of(place);
-    system.assembly().set_step_time(
-        step_time_at(run.model, place.stage, place.increment, reached, run.state.path.last_size));
+    system.assembly().set_step_time(run.step_time(place, reached, run.state.path.last_size));
   }
   const Eigen::VectorXd end = run.state.u;
   if (within && system.assembly().sees_unknowns()) run.state.u = run.state.u_before;

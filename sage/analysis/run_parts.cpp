@@ -1,6 +1,7 @@
 #include "sage/analysis/run_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -18,9 +19,19 @@ void RunParts::warn(const std::vector<Diagnostic>& list) const {
 }
 
 void RunParts::set_step_time(double load_factor, double share) const {
-  if (assembly().wants_step_time())
-    assembly().set_step_time(
-        step_time_at(model, state.place.stage, state.place.increment, load_factor, share, state.easing));
+  if (assembly().wants_step_time()) assembly().set_step_time(step_time(state.place, load_factor, share));
+}
+
+StepTime RunParts::step_time(const RunPlace& place, double load_factor, double share) const {
+  constexpr double kRounding = 1e-5;
+  const PorePath& pores = state.path.pores;
+  const bool planned = std::abs(share - pores.theta_share) <= kRounding * pores.theta_share;
+  StepTime time = step_time_at(model, place.stage, place.increment, load_factor,
+                               planned ? pores.theta_share : share, state.easing);
+  time.time -= state.early;
+  time.stage_start -= state.early;
+  if (pores.theta_share > 0.0) time.theta = planned ? pores.theta : 1.0;
+  return time;
 }
 
 void RunParts::set_water(double load_factor) const {
@@ -42,6 +53,8 @@ std::optional<PorePressure> RunParts::water_at(int stage, const Activity& activi
 double RunParts::end_of(const RunPlace& place) const {
   const Stage& stage_of_place = model.stages[static_cast<std::size_t>(place.stage)];
   const int increments = stage_of_place.increments;
+  if (settings.time_scheme == nullptr && !stage_of_place.ends.empty())
+    return place.increment == 0 ? 0.0 : stage_of_place.ends[static_cast<std::size_t>(place.increment - 1)];
   if (settings.time_scheme == nullptr)
     return GradedIncrements(stage_of_place.grading).load_factor(place.stage, place.increment, increments);
   if (place.increment == 0) return 0.0;

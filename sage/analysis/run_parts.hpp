@@ -35,6 +35,7 @@ struct RunParts {
   // Laws and elements that depend on time are evaluated at this load factor of the stage in hand, after a step of that
   // share of the stage; share 0 = a state at rest.
   void set_step_time(double load_factor, double share) const;
+  StepTime step_time(const RunPlace& place, double load_factor, double share) const;
   // Pore pressures at points, at this load factor of the stage in hand.
   void set_water(double load_factor) const;
   // Pore pressures at the end of a stage; nothing where the model has no water.  u: unknowns of an earlier flow, or null.

@@ -15,6 +15,28 @@ struct RunPlace {
   int stage = 0, increment = 0;
 };
 
+// Steps of flowing pore water that are chosen by their error, and how far the water has gone (pore_steps.hpp).
+struct PorePath {
+  double size = 0.0;                        // of the next step, as a share of the stage; 0 = not known yet
+  double error = 0.0;                       // sum of the bounds on errors of steps, in the unit of pressure
+  double largest = 0.0;                     // largest root mean square of pressure so far
+  double most = 0.0, water_pressure = 0.0;  // integral of pressure: largest magnitude so far, and now
+  long steps = 0;
+  bool ended = false;    // the degree or pressure that ends the stage is reached
+  Eigen::VectorXd rate;  // of pressures at the committed state, every dof; empty = not known
+  // Steps of that share of the stage have that theta; others have 1, and without a share (0) that of the stage.
+  double theta = 1.0, theta_share = 0.0;
+  Eigen::VectorXd volumes;  // of soil at each pressure, every dof; found again by a run that resumes
+
+  void exchange(Archive& archive) {
+    for (double* value : {&size, &error, &largest, &most, &water_pressure, &theta, &theta_share})
+      archive(*value);
+    archive(steps);
+    archive(ended);
+    archive(rate);
+  }
+};
+
 // The load path of a stage.  Vectors have one entry per dof.
 struct StagePath {
   Eigen::VectorXd external_start, force_start;  // loads and internal forces at its start
@@ -23,6 +45,7 @@ struct StagePath {
   Eigen::VectorXd u_start;                      // unknowns at its start, where dofs are eliminated
   // Of excess pressures, what has come or gone where stages before held them and this one does not; empty = no such field.
   Eigen::VectorXd let_in;
+  PorePath pores;
   std::unique_ptr<SteppingPolicy> policy = std::make_unique<SteppingPolicy>();
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
@@ -39,6 +62,7 @@ struct StagePath {
     own_tangent = false;
     relaxed = 0;
     loose_part.clear();
+    pores = {};
   }
   // What is known of the last steps.
   void forget_steps() {
@@ -56,11 +80,13 @@ struct RunState {
   RunPlace place;        // the increment in hand
   double reached = 0.0;  // load factor of the stage in hand at the committed state
   double easing = 1.0;   // of laws of water, while a free surface is searched for
+  double early = 0.0;    // time by which stages before ended early
 
   // To a checkpoint or back: after an increment (within a stage), or between two stages.
   void exchange_totals(Archive& archive) {
     archive(u);
     archive(external);
+    archive(early);
   }
   void exchange_path(Archive& archive) {
     archive(du);
@@ -78,6 +104,7 @@ struct RunState {
     archive(path.force_end);
     archive(path.u_start);
     archive(path.let_in);
+    path.pores.exchange(archive);
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include "sage/analysis/initial_balance.hpp"
 #include "sage/analysis/loads.hpp"
+#include "sage/analysis/pore_steps.hpp"
 #include "sage/analysis/pore_warnings.hpp"
 #include "sage/analysis/stage_warnings.hpp"
 #include "sage/model/active_dofs.hpp"
@@ -41,6 +42,7 @@ void StageStart::open(int stage) {
   find_loads(stage);
   for (const int dof : stored) state.path.force_start[dof] = state.external[dof];
   note_imbalance(stage);
+  PoreSteps::open_stage(run_);
   take_pressures_of_supports(stage);
 }
 

@@ -14,6 +14,7 @@ StepControl::StepControl(const RunParts& run)
       stepper_(run),
       damped_(run, stepper_),
       search_(run, stepper_),
+      pore_steps_(run),
       stiffness_(run),
       max_cuts_(run.settings.max_cuts) {}
 
@@ -26,6 +27,7 @@ void StepControl::open_stage() {
 
 void StepControl::resume() {
   StagePath& path = run_.state.path;
+  PoreSteps::resume(run_);
   damped_.open_stage();
   last_du_ = run_.state.du;
   stiffness_.set_committed(run_.assembly().internal_force());
@@ -54,17 +56,44 @@ void StepControl::begin_trial(int max_cuts) {
 }
 
 bool StepControl::take_increment(StepReport& report) {
+  const double end = run_.end_of({report.stage, report.increment});
+  const bool equal =
+      run_.settings.time_scheme == nullptr && run_.stage().grading == 1.0 && run_.stage().ends.empty();
+  const double whole =
+      equal ? 1.0 / report.increments : end - run_.end_of({report.stage, report.increment - 1});
+  report.substeps = 0;
+  run_.state.place = {report.stage, report.increment};
+  return pore_steps_.chooses() ? advance_by_error(report, end) : advance(report, end, whole);
+}
+
+// Each step in the two parts of its method; one whose error is too large is taken back.
+bool StepControl::advance_by_error(StepReport& report, double end) {
+  RunState& state = run_.state;
+  if (!run_.assembly().eliminated().dofs().empty()) take_loads();
+  while (state.reached < end && !state.path.pores.ended) {
+    const double from = state.reached, size = pore_steps_.next(end);
+    const double to = size >= end - from ? end : from + size;
+    const std::string start = run_.keep_state();
+    for (const PoreSteps::Part part : {PoreSteps::Part::first, PoreSteps::Part::second}) {
+      pore_steps_.begin_part(part, to - from);
+      const double part_end = part == PoreSteps::Part::first ? from + state.path.pores.theta_share : to;
+      if (!advance(report, part_end, part_end - state.reached)) return false;
+    }
+    if (!pore_steps_.accept(to - from))
+      pore_steps_.go_back(start, from);
+    else
+      pore_steps_.measure();
+  }
+  return true;
+}
+
+// whole: of which a step is 2^-max_cuts at least.
+bool StepControl::advance(StepReport& report, double end, double whole) {
   constexpr int kMostAttempts = 3;  // of a trial, of so many iterations each at most
   constexpr std::size_t kEasy = 6;  // iterations
   RunState& state = run_.state;
-  const double end = run_.end_of({report.stage, report.increment});
-  const double whole = run_.settings.time_scheme == nullptr && run_.stage().grading == 1.0
-                           ? 1.0 / report.increments
-                           : end - run_.end_of({report.stage, report.increment - 1});
   double size = end - state.reached;
   int iterations = 0;  // of Newton's attempts
-  report.substeps = 0;
-  state.place = {report.stage, report.increment};
   while (state.reached < end) {
     const double to = size >= end - state.reached - 1e-12 * whole ? end : state.reached + size;
     const double tried = to - state.reached;
@@ -88,6 +117,7 @@ bool StepControl::take_increment(StepReport& report) {
       }
       state.path.path_error = std::max(state.path.path_error, error);
       accept(report, step, to);
+      if (!pore_steps_.chooses() && pore_steps_.measure()) return true;
       if (step.iterations.size() <= kEasy && 8.0 * error <= kPathTolerance) size *= 2.0;
       continue;
     }

@@ -6,6 +6,7 @@
 #include "sage/analysis/current_stiffness.hpp"
 #include "sage/analysis/damped_steps.hpp"
 #include "sage/analysis/free_surface_search.hpp"
+#include "sage/analysis/pore_steps.hpp"
 #include "sage/analysis/relaxation.hpp"
 #include "sage/analysis/stepper.hpp"
 
@@ -38,6 +39,8 @@ class StepControl {
   void drop_step();
 
  private:
+  bool advance(StepReport& report, double end, double whole);
+  bool advance_by_error(StepReport& report, double end);
   bool record(StepReport& report, const NewtonStep& step, double size) const;
   void accept(StepReport& report, const NewtonStep& step, double to);
   bool fail(StepReport& report, const NewtonStep& step, double size);
@@ -56,6 +59,7 @@ class StepControl {
   Stepper stepper_;
   DampedSteps damped_;
   FreeSurfaceSearch search_;
+  PoreSteps pore_steps_;
   CurrentStiffness stiffness_;
   NewtonStep failed_, relaxed_;
   double force_left_ = 0.0;

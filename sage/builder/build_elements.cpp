@@ -467,7 +467,7 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
   }
   b.error("S225", card.where("second_material"),
           name + ": a " + group.entry->name + " needs a second material, whose law " +
-              (pores ? std::string("is for flow of pore water: pore_flow")
+              (pores ? std::string("is for flow of pore water: ") + (group.interface() ? "pore_joint" : "pore_flow")
                      : "has " + std::to_string(size) + (size == 1 ? " component" : " components")));
 }
 

@@ -1,9 +1,13 @@
 // Fixities, loads, initial stress and stages.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 #include "sage/builder/builder.hpp"
+#include "sage/core/time_scheme.hpp"
 
 namespace sage::builder {
 
@@ -418,6 +422,92 @@ void read_pores(Builder& b, const CardView& card, Stage& stage) {
             "an increment over the one before must lie between 0.01 and 100 (blank = 1)");
 }
 
+// Times of the text "0.5 2 10", ascending; an error where it is none.
+std::vector<double> read_times(Builder& b, const CardView& card, double duration) {
+  constexpr std::size_t kColumns = 80;
+  const std::string text = b.text(card, "output_times");
+  std::vector<double> times;
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  for (std::string word; words >> word;) {
+    double time = 0.0;
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), time);
+    const bool good = problem == std::errc() && end == word.data() + word.size();
+    if (!good || !(time > 0.0 && time <= duration * (1.0 + 1e-12))) {
+      b.error("S579", card.where("output_times"),
+              "output time '" + word + "': times are numbers above 0 and at most the duration of the stage, "
+                  "with blanks between");
+      return {};
+    }
+    times.push_back(std::min(time, duration));
+  }
+  std::ranges::sort(times);
+  if (text.size() > kColumns)
+    b.error("S579", card.where("output_times"), "the output times of a stage have more than 80 characters");
+  return times;
+}
+
+// Each output time is the end of an increment, besides those of the card.
+void divide_at_output_times(Stage& stage) {
+  constexpr double kSame = 1e-9;
+  if (stage.output_times.empty() || stage.increments < 1 || !(stage.grading > 0.0)) return;
+  const GradedIncrements graded(stage.grading);
+  std::vector<double> ends;
+  for (int i = 1; i <= stage.increments; ++i)
+    ends.push_back(graded.load_factor(0, i, stage.increments));
+  const auto known = [&](double end) {
+    return std::ranges::any_of(ends, [&](double one) { return std::abs(one - end) <= kSame * end; });
+  };
+  for (const double time : stage.output_times)
+    if (!known(time / stage.duration)) ends.push_back(time / stage.duration);
+  std::ranges::sort(ends);
+  stage.divisions = stage.increments;
+  stage.increments = static_cast<int>(ends.size());
+  for (const double time : stage.output_times) {
+    const auto at = std::ranges::find_if(
+        ends, [&](double one) { return std::abs(one - time / stage.duration) <= kSame * one; });
+    stage.output_at.push_back(static_cast<int>(at - ends.begin()) + 1);
+  }
+  stage.output_at.erase(std::unique(stage.output_at.begin(), stage.output_at.end()), stage.output_at.end());
+  stage.ends = std::move(ends);
+}
+
+// Steps and end of a stage of consolidation, beside its increments and its time.
+void read_time_steps(Builder& b, const CardView& card, Stage& stage) {
+  const auto share = [&](const char* field, double most, const std::string& range) {
+    const double value = card.real(field);
+    if (b.usable(card, field, value) && !(value >= 0.0 && value < most))
+      b.error("S579", card.where(field), "the " + card.label(field) + " must lie between 0 and " + range);
+    if (value != 0.0 && stage.pores != PoreWater::flows)
+      b.error("S579", card.where(field), "it needs a stage of consolidation (pore_water 2)");
+    return value;
+  };
+  stage.time_error = share("time_error", 0.5, "0.5");
+  stage.end_degree = share("end_degree", 1.0, "1");
+  stage.end_pressure = share("end_pressure", std::numeric_limits<double>::max(), "the largest number");
+  if (stage.time_error > 0.0 && stage.theta != 1.0)
+    b.error("S579", card.where("theta"),
+            "theta must be blank where steps are chosen by their error: their method has its own");
+  stage.output_times = read_times(b, card, stage.duration);
+  divide_at_output_times(stage);
+}
+
+// What grows over a stage must not be cut short.
+void check_early_end(Builder& b, const CardView& card, const Stage& stage) {
+  if (!stage.may_end_early()) return;
+  const auto moves = [](const Fixity& f) {
+    return f.value[0] != 0.0 || f.value[1] != 0.0 || std::ranges::count(f.code, FixityCode::released) > 0;
+  };
+  const auto changes = [](const FieldFixity& f) { return f.value != 0.0; };
+  if (stage.loads.empty() && stage.field_loads.empty() && stage.pressures.empty() && stage.births.empty() &&
+      stage.deaths.empty() && stage.gravity.isZero(0.0) && std::ranges::none_of(stage.fixities, moves) &&
+      std::ranges::none_of(stage.field_fixities, changes))
+    return;
+  b.error("S579", card.where(stage.end_degree > 0.0 ? "end_degree" : "end_pressure"),
+          "a stage that ends by degree or pressure must not change loads, supports or groups, since these "
+          "changes take the whole duration; make them in the stage before");
+}
+
 Stage read_stage(Builder& b, const CardView& card, int number) {
   Stage stage;
   stage.number = number;
@@ -469,6 +559,8 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   for (const CardView& c : b.deck.all("removal", card))
     if (const auto found = b.removed.find(c.index()); found != b.removed.end())
       stage.deaths.insert(stage.deaths.end(), found->second.begin(), found->second.end());
+  read_time_steps(b, card, stage);
+  check_early_end(b, card, stage);
   return stage;
 }
 

@@ -1,6 +1,6 @@
 #include "sage/builder/model_input.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -204,6 +204,12 @@ void InputCards::add_stage(const StageInput& stage, int number) {
   if (stage.pores != PoreWater::kept) own.push_back({"pore_water", static_cast<double>(stage.pores)});
   if (stage.theta != 1.0) own.push_back({"theta", stage.theta});
   if (stage.grading != 1.0) own.push_back({"grading", stage.grading});
+  for (const auto& [name, value] : {std::pair{"time_error", stage.time_error},
+                                    {"end_degree", stage.end_degree},
+                                    {"end_pressure", stage.end_pressure}})
+    if (value != 0.0) own.push_back({name, value});
+  if (!stage.output_times.empty())
+    own.push_back({"output_times", 0.0, {}, fmt::format("{}", fmt::join(stage.output_times, " "))});
   const int card = add("stage", own);
   for (const SupportInput& support : stage.supports) add_support(support, "fixity", card);
   for (const LoadInput& load : stage.loads)

@@ -70,6 +70,8 @@ struct StageInput {
   PoreWater pores = PoreWater::kept;
   double theta = 1.0;    // of the theta method of flowing pore water, 0.5 .. 1
   double grading = 1.0;  // each increment over the one before
+  double time_error = 0.0, end_degree = 0.0, end_pressure = 0.0;  // as in Stage
+  std::vector<double> output_times = {};
   std::vector<SupportInput> supports = {};
   std::vector<LoadInput> loads = {};
   std::vector<PressureInput> pressures = {};

@@ -49,7 +49,7 @@ void lengthen_cards(Layout& layout) {
            {field("second_material", "material number of the second law, of elements that have two",
                   FieldKind::integer)});
   lengthen(
-      layout, "stage", "2F20.0,I10,2F20.0,I10",
+      layout, "stage", "2F20.0,I10,2F20.0,I10,3F20.0,A80",
       {field("duration", "time that the stage lasts, for laws that depend on it; blank = 1", FieldKind::real),
        field("strength_factor", "factor by which strengths were divided, for the table of results",
              FieldKind::real),
@@ -58,7 +58,16 @@ void lengthen_cards(Layout& layout) {
        field("theta", "theta of the steps of consolidation, 0.5 to 1; blank = 1", FieldKind::real),
        field("grading", "each increment over the one before; blank = 1", FieldKind::real),
        field("reset_displacements", "1: displacements count from the start of this stage; 0 they go on",
-             FieldKind::integer)});
+             FieldKind::integer),
+       field("time_error",
+             "consolidation: largest error of one step in time, as a share of the largest excess pressure (root "
+             "mean square); blank = steps are the increments",
+             FieldKind::real),
+       field("end_degree", "consolidation: the stage ends at this degree of consolidation", FieldKind::real),
+       field("end_pressure", "consolidation: the stage ends when no excess pressure is larger",
+             FieldKind::real),
+       field("output_times", "times since the start of the stage with output, with blanks between",
+             FieldKind::text)});
   for (const char* initial : {"initial", "stage_initial"})
     lengthen(layout, initial, "I10,A40",
              {field("material", "kind 6: material number, in place of value 1", FieldKind::integer),
@@ -70,7 +79,7 @@ void lengthen_cards(Layout& layout) {
 Layout wide_layout(Layout layout) {
   layout.title += ", with wide fields";
   layout.name += "_wide";
-  layout.records.record_length = 3 * layout.records.record_length + 20;  // the longest card is that of a stage
+  layout.records.record_length = 5 * layout.records.record_length;  // the longest card is that of a stage
   layout.first_sequence_column = layout.last_sequence_column = 0;
   layout.marks.clear();
   layout.example.clear();  // its columns are those of the narrow fields

@@ -1,4 +1,5 @@
 // A model as a deck of layout sage1 (legacy_inputs/layouts/sage1.toml), or sage1_wide.
+#include <fmt/ranges.h>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -398,12 +399,13 @@ void Sage1Writer::list(const std::vector<int>& groups) {
 }
 
 void Sage1Writer::stage(const Stage& stage) {
-  const bool resets = stage.resets_displacements;
+  const bool timed = stage.time_error != 0.0 || stage.may_end_early() || !stage.output_times.empty();
+  const bool resets = timed || stage.resets_displacements;
   // Fields behind one another: each is written where one behind it is.
   const bool pores = resets || stage.pores != PoreWater::kept || stage.theta != 1.0 || stage.grading != 1.0;
   const bool factor = pores || stage.strength_factor != 0.0, lasts = factor || stage.duration != 1.0;
   if (lasts && !wide_)
-    throw TooWide{resets ? "of the reset of displacements" : "of the stage's duration or strength factor"};
+    throw TooWide{resets ? "of the fields of the stage" : "of the stage's duration or strength factor"};
   // A '*' in column 1 would make the title a comment.
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();
@@ -414,7 +416,7 @@ void Sage1Writer::stage(const Stage& stage) {
                                 of_groups(stage.births),
                                 of_groups(stage.deaths),
                                 of_groups(stage.initials)};
-  for (int value : {stage.increments, static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
+  for (int value : {stage.given_increments(), static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
     integer(value);
   for (std::size_t count : counts) integer(static_cast<long>(count));
   for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);
@@ -425,7 +427,11 @@ void Sage1Writer::stage(const Stage& stage) {
     real(stage.theta);
     real(stage.grading);
   }
-  if (resets) integer(1);
+  if (resets) integer(stage.resets_displacements ? 1 : 0);
+  if (timed) {
+    for (const double value : {stage.time_error, stage.end_degree, stage.end_pressure}) real(value);
+    name(fmt::format("{}", fmt::join(stage.output_times, " ")), 80);
+  }
   line();
   for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);

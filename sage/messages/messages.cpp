@@ -1085,6 +1085,17 @@ constexpr MessageEntry kMessages[] = {
      "Search with more iterations: sagefe safety DECK --iterations 200. Compare the loads and supports of "
      "both."},
 
+    {"S579", "the steps or the end of a stage of consolidation do not fit",
+     "The fields time_error, end_degree, end_pressure and output_times of a stage need pore_water 2, values in their "
+     "range, and theta blank beside time_error. A stage that ends by degree or pressure changes no load, support or "
+     "group: such changes take the whole duration.",
+     "Correct the field, or put the load into a stage of its own before the wait "
+     "(docs/manual/consolidation.md)."},
+    {"S580", "how a stage of consolidation ended",
+     "A stage with end_degree or end_pressure ends behind the first step that reaches it. As a warning: its duration "
+     "was over before.",
+     "Where the duration was too short, make it longer."},
+
     // S6: results, checkpoints and result files.
     {"S585", "initial stresses raise the preconsolidation pressure",
      "The parameters state a preconsolidation pressure whose surface lies inside the initial stress. At "
@@ -1102,6 +1113,10 @@ constexpr MessageEntry kMessages[] = {
     {"S590", "a card is not in its columns and was left as it is",
      "sagefe align found values beside their columns. More than one set of fields can hold them, or none can.",
      "Write 0 for each blank field of the card, or move the values by hand; sagefe echo shows the columns."},
+    {"S600", "the error of steps in time",
+     "Steps of a stage with time_error are chosen by a bound on the error of each. Errors die out as pressures do, so "
+     "their sum is a bound on the error at every time of the stage.",
+     "Nothing has to be done. A smaller time_error gives a smaller sum, by more steps."},
     {"S601", "a result can't be written",
      "The disk is full, the folder may not be written to, or there is a folder or a device of that name. "
      "The message gives the system's reason.",

@@ -26,6 +26,8 @@ void add_initials(Archive& archive, const std::vector<InitialStress>& initials) 
 void add_stage(Archive& archive, const Stage& s) {
   if (s.pores != PoreWater::kept || s.theta != 1.0 || s.grading != 1.0)
     add(archive, s.pores, s.theta, s.grading);
+  if (s.time_error != 0.0 || s.may_end_early() || !s.output_times.empty())
+    add(archive, s.time_error, s.end_degree, s.end_pressure, s.output_times);
   add(archive, s.title, s.increments, s.duration, s.method, s.max_iterations, s.output_every, s.tolerance,
       s.gravity.x(), s.gravity.y());
   add_fixities(archive, s.fixities);

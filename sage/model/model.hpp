@@ -216,6 +216,14 @@ struct Stage {
   PoreWater pores = PoreWater::kept;
   double theta = 1.0;    // of the theta method of flowing pore water, 0.5 .. 1
   double grading = 1.0;  // each increment over the one before
+  // Of flowing pore water.  Largest error of one step that is chosen by its error, as a share of the largest root mean square
+  // of excess pressure in the stage; 0 = steps are those of the increments.
+  double time_error = 0.0;
+  // The stage ends as soon as this degree of consolidation is reached, or no excess pressure is above that; 0 = by its time.
+  double end_degree = 0.0, end_pressure = 0.0;
+  std::vector<double> output_times;  // since the start of the stage; each is the end of an increment
+  std::vector<double> ends;          // load factors at the ends of increments; empty = by the grading
+  int divisions = 0;  // increments of the card, where `increments` counts those of output_times too; 0 = none are added
   Method method = Method::newton;
   int max_iterations = 25;
   int output_every = 1;
@@ -233,6 +241,9 @@ struct Stage {
   double strength_factor = 0.0;         // by which the strengths were divided for it; 0 = it is about no factor
   bool resets_displacements = false;    // displacements count from its start
   SourcePosition where;
+
+  int given_increments() const { return divisions > 0 ? divisions : increments; }
+  bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }
 };
 
 enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4 };

@@ -5,6 +5,7 @@
 #include "sage/record/extremes.hpp"
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/values.hpp"
+#include "sage/record/water_balance.hpp"
 
 namespace sage {
 
@@ -109,6 +110,8 @@ void Listing::on_stage_end(const Model& model, int stage, const EquilibriumAudit
     states(text, model, solution, options_.fields);
   }
   listing::free_surface(text, model, solution);
+  if (model.has_pores() && solution.assembly != nullptr)
+    text += water_balance_table(model, water_balance(model, stage, solution));
   const std::vector<ExtremeRow> now = extremes(model, stage, solution);
   if (!now.empty())
     text += "\n   Extremes of structures (compression positive)\n" + extremes_table(model, now, false);

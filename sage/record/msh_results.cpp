@@ -129,7 +129,7 @@ MshResults::MshResults(const std::filesystem::path& folder, const std::string& s
 
 void MshResults::add(const Model& model, const StepReport& report, const Solution& now) {
   const FieldTable table = fields_of(model);
-  const Step step{StateTime(model).at(report.stage, report.load_factor), count_++};
+  const Step step{StateTime(model).at(report), count_++};
   const NodalLayout layout = nodal_layout(model, *now.activity);
   std::string& out = file_.text();
   add_node_views(out, model, now, table, step);

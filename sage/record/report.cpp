@@ -10,8 +10,10 @@
 
 #include "sage/analysis/flow_through.hpp"
 #include "sage/analysis/loads.hpp"
+#include "sage/analysis/pore_steps.hpp"
 #include "sage/record/nodal_values.hpp"
 #include "sage/record/number.hpp"
+#include "sage/record/output.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage {
@@ -291,7 +293,8 @@ bool Reports::wants_nodes(const Model& model, const StepReport& step, std::span<
 void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
   if (series_.empty()) return;
   enter_points(model, solution);
-  if (model.stages[static_cast<std::size_t>(stage)].pores == PoreWater::flows) first_pressure_ = pressure_;
+  if (model.stages[static_cast<std::size_t>(stage)].pores == PoreWater::flows)
+    first_pressure_ = std::abs(pressure_);
   const Weights weights(model, stage);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
@@ -421,35 +424,6 @@ void Reports::add_triaxial(Series& series, std::size_t index, const StepReport& 
   series.triaxial.push_back(r);
 }
 
-namespace {
-
-// Integral of the excess pressure, by the mean of each element's corners.
-double integral_of_pressure(const Model& model, const Solution& solution) {
-  const int field = model.pore_field();
-  double sum = 0.0;
-  std::vector<double> geometry;
-  Eigen::Matrix2Xd x;
-  for (const GroupData& data : solution.groups()) {
-    const ElementTraits& traits = data.group->element->traits();
-    if (!data.active || !data.group->entry->has_pores()) continue;
-    geometry.resize(static_cast<std::size_t>(traits.geometry_size()));
-    const int corners = data.group->entry->corners;
-    for (int e = 0; e < data.group->elements(); ++e) {
-      element_coordinates(model.mesh, *data.group, e, x);
-      data.group->element->geometry(x, geometry);
-      double volume = 0.0, pressure = 0.0;
-      for (int p = 0; p < traits.points; ++p)
-        volume += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
-      for (int i = 0; i < corners; ++i)
-        pressure += (*solution.u)[solution.activity->dof_map.of(data.group->nodes_of(e)[i], field)];
-      sum += volume * pressure / corners;
-    }
-  }
-  return sum;
-}
-
-}  // namespace
-
 void Reports::add_nodes(Series& series, const Report& report, const StepReport& step, const NodeSums& sums,
                         const Solution& solution) {
   NodesRow r{step.stage + 1, step.increment, {}, {}, {}};
@@ -464,6 +438,7 @@ void Reports::add_nodes(Series& series, const Report& report, const StepReport& 
     int count = 0, held = 0;
     for (int s = 0; s <= step.stage; ++s)
       time += model_->stages[static_cast<std::size_t>(s)].duration * (s == step.stage ? step.load_factor : 1.0);
+    time -= step.early;
     for (const int node : report.nodes) {
       const int dof = activity.dof_map.of(node, model_->pore_field());
       if (dof < 0) continue;
@@ -476,7 +451,7 @@ void Reports::add_nodes(Series& series, const Report& report, const StepReport& 
     r.pores[0] = time;
     r.pores[1] = count > 0 ? pressure / count : kUnknown;
     r.pores[2] = held > 0 ? left : kUnknown;
-    r.pores[3] = first_pressure_ != 0.0 ? 1.0 - pressure_ / first_pressure_ : kUnknown;
+    r.pores[3] = first_pressure_ != 0.0 ? 1.0 - std::abs(pressure_) / first_pressure_ : kUnknown;
   }
   series.nodes.push_back(r);
 }
@@ -582,7 +557,11 @@ void Reports::append_row(std::size_t index) {
 
 void Reports::add_rows(const Model& model, const StepReport& step, const Solution& solution) {
   enter_points(model, solution);
-  if (model.has_pores() && !series_.empty()) pressure_ = integral_of_pressure(model, solution);
+  if (model.has_pores() && !series_.empty()) {
+    pressure_ = pore_volumes(model, solution.groups(), solution.activity->dof_map).dot(*solution.u);
+    if (stage_of(model, step.stage).pores == PoreWater::flows)
+      first_pressure_ = std::max(first_pressure_, std::abs(pressure_));
+  }
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
     const Report& report = model.reports[i];

@@ -198,7 +198,7 @@ class Reports final : public Output {
   FieldTable fields_;
   const Model* model_ = nullptr;  // since on_start
   double pressure_ = 0.0;         // integral of the excess pressure at the last increment
-  double first_pressure_ = 0.0;   // at the start of the last stage of consolidation
+  double first_pressure_ = 0.0;   // largest since the start of the last stage of consolidation
   std::vector<char> probed_;      // groups that were active when the probes were made
   std::vector<std::filesystem::path> files_;
 };

@@ -159,7 +159,7 @@ class VtkPart {
     const auto one = [&](const char* name, std::int64_t value) {
       out_.append(steps(name), std::vector{value}, 1);
     };
-    out_.append(steps("Values"), std::vector{time_.at(frame.report().stage, frame.report().load_factor)}, 1);
+    out_.append(steps("Values"), std::vector{time_.at(frame.report())}, 1);
     one("PartOffsets", parts_ - 1);
     one("NumberOfParts", 1);
     one("PointOffsets", here_.points);

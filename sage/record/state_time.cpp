@@ -26,7 +26,8 @@ double strain_of(const Report& report, const Mesh& mesh, const Stage& stage) {
 }  // namespace
 
 StateTime::StateTime(const Model& model) {
-  if (use_strain(model)) return;
+  is_strain_ = use_strain(model);
+  if (is_strain_) return;
   bool given = false;
   for (const Stage& stage : model.stages) {
     ends_.push_back((ends_.empty() ? 0.0 : ends_.back()) + stage.duration);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sage/analysis/records.hpp"
 #include "sage/model/model.hpp"
 
 namespace sage {
@@ -17,6 +18,9 @@ class StateTime {
 
   // stage: from 0; load_factor: part of it that is applied.
   double at(int stage, double load_factor) const;
+  double at(const StepReport& report) const {
+    return at(report.stage, report.load_factor) - (is_strain_ ? 0.0 : report.early);
+  }
   const std::string& meaning() const { return meaning_; }
 
  private:
@@ -25,6 +29,7 @@ class StateTime {
   std::vector<double> ends_;  // of the stages
   double start_ = 0.0;        // of the first
   std::string meaning_;
+  bool is_strain_ = false;
 };
 
 }  // namespace sage

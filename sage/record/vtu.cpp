@@ -136,7 +136,7 @@ void add_arrays(VtuText& vtu, const std::vector<VtkArray>& arrays, const UnitSys
 void add_step(VtuText& vtu, const Model& model, const StepReport& step) {
   constexpr std::string_view kOne = " NumberOfTuples=\"1\"";
   vtu.tag("    <FieldData>");
-  vtu.array("TimeValue", 1, std::vector{StateTime(model).at(step.stage, step.load_factor)}, kOne);
+  vtu.array("TimeValue", 1, std::vector{StateTime(model).at(step)}, kOne);
   vtu.array("stage", 1, std::vector{std::int32_t{step.stage + 1}}, kOne);
   vtu.array("increment", 1, std::vector{std::int32_t{step.increment}}, kOne);
   vtu.array("load_factor", 1, std::vector{step.load_factor}, kOne);
@@ -221,7 +221,7 @@ void Vtu::add(const Model& model, const StepReport& report, const Solution& solu
   const StateTime time(model);
   if (count_ == 1) pvd_.text() += fmt::format("    <!-- timestep: {} -->\n", time.meaning());
   pvd_.text() += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n",
-                             time.at(report.stage, report.load_factor), xml_text(name));
+                             time.at(report), xml_text(name));
   pvd_.checkpoint();
 }
 

@@ -2,7 +2,10 @@
 // docs/theory/consolidation.md
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
 #include <vector>
 
 #include "sage/analysis/observer.hpp"
@@ -10,6 +13,8 @@
 #include "sage/exchange/convert.hpp"
 #include "sage/model/dof_map.hpp"
 #include "sage/model/fingerprint.hpp"
+#include "sage/model_file/model_file.hpp"
+#include "sage/record/water_balance.hpp"
 #include "tests/studies/scenes/consolidation.hpp"
 #include "tests/studies/workbench.hpp"
 
@@ -98,6 +103,218 @@ TEST(Consolidation, TwoDrainsAreOneOfHalfTheHeight) {
   EXPECT_NEAR(middle(true), middle(false), 1e-12);
 }
 
+// ---- steps in time ----
+
+// Terzaghi's column, loaded at once, in steps that are chosen by their error.
+WholeRun column_in_time(int rows, double time_error, std::vector<double> times, double end_degree = 0.0,
+                        double end_pressure = 0.0, std::span<Observer* const> others = {}) {
+  Column column(graded(0.0, 1.0, rows));
+  column.load(shut_in());
+  StageInput wait = consolidation(2.0, 1);
+  wait.time_error = time_error;
+  wait.output_times = std::move(times);
+  wait.end_degree = end_degree;
+  wait.end_pressure = end_pressure;
+  column.input.stages.push_back(wait);
+  column.input.stages.push_back(consolidation(1.0, 2));
+  WholeRun done = bench().run(build_model(column.input, bench().catalogue()), {}, others);
+  EXPECT_TRUE(done.completed()) << done.failure;
+  return done;
+}
+
+// The number behind some words of a message.
+double number_behind(const WholeRun& run, const std::string& words) {
+  for (const std::string& text : run.warnings)
+    if (const std::size_t at = text.find(words); at != std::string::npos)
+      return std::stod(text.substr(at + words.size()));
+  ADD_FAILURE() << "no message has: " << words;
+  return std::nan("");
+}
+
+// Pressure at mid-depth and degree of consolidation (settlement) of Terzaghi's series at T = 0.1 and 0.5.
+TEST(Consolidation, TheStatedErrorOfTimeBoundsTheTrueOne) {
+  const double exact[2][2] = {{0.735651315244, 0.356823400452}, {0.262188275575, 0.763950330744}};
+  constexpr int kRows = 128;
+  const Column lattice(graded(0.0, 1.0, kRows));
+  const int middle = lattice.mesh.node(0, kRows), top = lattice.mesh.node(0, 2 * kRows);
+  double before = 1.0;
+  for (const double time_error : {1e-3, 1e-4, 1e-5}) {
+    const WholeRun done = column_in_time(kRows, time_error, {0.1, 0.5});
+    const double stated = number_behind(done, "add up to at most ");
+    double truly = 0.0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Snapshot& at = done.increments[1 + i];
+      EXPECT_NEAR(at.load_factor * 2.0, i == 0 ? 0.1 : 0.5, 1e-14);
+      truly = std::max({truly, std::abs(pressure(done, at, middle) - exact[i][0]),
+                        std::abs(-at.u[DofMap::displacement(done.index(top), 1)] - exact[i][1])});
+    }
+    std::printf("time_error %g: stated %g, true error %g\n", time_error, stated, truly);
+    EXPECT_LE(truly, stated);
+    EXPECT_LT(truly, 0.5 * before);
+    EXPECT_LT(stated, 2000.0 * time_error);
+    before = truly;
+  }
+}
+
+struct TimeObserver final : Observer {
+  std::vector<double> times;  // at the ends of increments
+  void on_increment(const Model& model, const StepReport& step, const Solution&) override {
+    double time = -step.early;
+    for (int s = 0; s <= step.stage; ++s)
+      time += model.stages[static_cast<std::size_t>(s)].duration * (s == step.stage ? step.load_factor : 1.0);
+    times.push_back(time);
+  }
+};
+
+// U = 0.9 at T = 0.848084, where p at the base is 0.157079; one step of the run later at most.
+TEST(Consolidation, AStageEndsByDegreeOrPressureAndTimeGoesOn) {
+  constexpr double kT90 = 0.8480838, kBase = 0.1570792;
+  for (const bool by_degree : {true, false}) {
+    SCOPED_TRACE(by_degree);
+    TimeObserver seen;
+    Observer* also[] = {&seen};
+    const WholeRun done =
+        column_in_time(40, 1e-5, {}, by_degree ? 0.9 : 0.0, by_degree ? 0.0 : kBase, also);
+    ASSERT_EQ(done.increments.size(), 4u);
+    const double ended = seen.times[1] - 1.0;  // the undrained stage lasts 1
+    EXPECT_GE(ended, kT90 - 5e-4);
+    EXPECT_LE(ended, 1.15 * kT90);
+    EXPECT_NEAR(seen.times[3], 1.0 + ended + 1.0, 1e-12);
+    EXPECT_TRUE(done.warns("S580"));
+    EXPECT_TRUE(done.warns("ended after a time of"));
+  }
+  EXPECT_TRUE(column_in_time(10, 1e-3, {}, 0.9999).warns("is over before the degree"));
+}
+
+// Without steps by error the stage ends behind an increment.
+TEST(Consolidation, AStageOfEqualStepsEndsByDegree) {
+  Column column(graded(0.0, 1.0, 20));
+  column.load(shut_in());
+  StageInput wait = consolidation(2.0, 100);
+  wait.end_degree = 0.5;  // T = 0.196735
+  column.input.stages.push_back(wait);
+  const WholeRun done = run(column.input);
+  EXPECT_NEAR(done.last().load_factor * 2.0, 0.20, 0.021);
+  EXPECT_LT(done.increments.size(), 15u);
+}
+
+TEST(Consolidation, OutputTimesAreEndsOfIncrements) {
+  Column column(graded(0.0, 1.0, 4));
+  column.load(shut_in());
+  StageInput wait = consolidation(2.0, 4);
+  wait.output_times = {0.3, 1.0, 1.7};
+  column.input.stages.push_back(wait);
+  const WholeRun done = run(column.input);
+  std::vector<double> times;
+  for (const Snapshot& at : done.increments)
+    if (at.stage == 1) times.push_back(2.0 * at.load_factor);
+  const std::vector<double> wanted{0.3, 0.5, 1.0, 1.5, 1.7, 2.0};
+  ASSERT_EQ(times.size(), wanted.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) EXPECT_NEAR(times[i], wanted[i], 1e-14);
+  EXPECT_EQ(done.model->stages[1].output_at, (std::vector<int>{1, 3, 5}));
+}
+
+// ---- interfaces ----
+
+// Two layers of height 1/2 with an interface between them, which leaks.
+struct TwoLayers {
+  Column column;
+  int top = 0, above = 0, below = 0, base = 0;  // nodes on the left
+
+  explicit TwoLayers(int rows, double conductance, Geometry geometry = Geometry::plane_strain)
+      : column(graded(0.0, 1.0, rows), "quad8p4", 0.0, 1, geometry) {
+    ModelInput& input = column.input;
+    const std::vector<int> lower = column.mesh.row(rows);
+    std::vector<int> upper;
+    for (const int node : lower) {
+      input.nodes.push_back(input.nodes[static_cast<std::size_t>(node - 1)]);
+      upper.push_back(static_cast<int>(input.nodes.size()));
+    }
+    for (std::vector<int>& nodes : input.groups[0].elements) {
+      const auto is_above = [&](int node) { return input.nodes[static_cast<std::size_t>(node - 1)].y() > 0.5 + 1e-9; };
+      if (std::ranges::none_of(nodes, is_above)) continue;
+      for (std::size_t i = 0; i < lower.size(); ++i) std::ranges::replace(nodes, lower[i], upper[i]);
+    }
+    input.supports.push_back(held({upper.front(), upper.back()}, true, false));
+    input.materials.push_back({"goodman", {{"shear_stiffness", 1e9}, {"normal_stiffness", 1e9}, {"tension", 1.0}}});
+    input.materials.push_back({"pore_joint", {{"conductance", conductance}}});
+    input.groups.push_back({.element = "interface6p4",
+                            .material = 3,
+                            .elements = {{lower[0], lower[2], upper[2], upper[0], lower[1], upper[1]}}});
+    input.groups.back().second_material = 4;
+    top = column.mesh.node(0, 2 * rows);
+    above = upper.front();
+    below = lower.front();
+    base = column.mesh.node(0, 0);
+  }
+};
+
+// At t = 0.1 and 0.5: pressures above, below, at the base, settlement.  Series of two layers with the resistance 1/2 between
+// them (eigenfunctions), from an independent program.
+TEST(Consolidation, ALeakingInterfaceFollowsItsSeries) {
+  const double exact[2][4] = {{0.603673044172, 0.869791152894, 0.980130790835, 0.351858194255},
+                              {0.239453189017, 0.445593077971, 0.552177597946, 0.679932371172}};
+  const auto values = [](int rows) {
+    TwoLayers layers(rows, 2.0);
+    layers.column.load(shut_in());
+    StageInput wait = consolidation(0.5, 1);
+    wait.time_error = 1e-7;
+    wait.output_times = {0.1};
+    layers.column.input.stages.push_back(wait);
+    const WholeRun done = run(layers.column.input);
+    Eigen::Matrix<double, 2, 4> found;
+    for (int i = 0; i < 2; ++i) {
+      const Snapshot& at = done.increments[static_cast<std::size_t>(1 + i)];
+      found.row(i) << pressure(done, at, layers.above), pressure(done, at, layers.below),
+          pressure(done, at, layers.base), -at.u[DofMap::displacement(done.index(layers.top), 1)];
+    }
+    return found;
+  };
+  const Eigen::Matrix<double, 2, 4> coarse = values(24), fine = values(48);
+  for (int i = 0; i < 2; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const double limit = (4.0 * fine(i, k) - coarse(i, k)) / 3.0;  // pressures have errors of order h^2
+      EXPECT_NEAR(limit, exact[i][k], 1e-6) << i << k;
+      EXPECT_NEAR(fine(i, k), exact[i][k], 2e-4) << i << k;
+    }
+}
+
+// Between held pressures the flow is 1 / (1 / k + 1 / C) and linear in each layer.
+TEST(Consolidation, SteadyFlowThroughALeakingInterface) {
+  for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
+    for (const double conductance : {0.0, 0.1, 2.0, 1e10}) {
+      SCOPED_TRACE(conductance);
+      TwoLayers layers(4, conductance, geometry);
+      StageInput rise = consolidation(1e6, 6, 10.0);
+      rise.supports = {drained(layers.column.mesh.corner_row(0), 1.0)};
+      layers.column.input.stages = {rise, consolidation(1e6, 1)};
+      const WholeRun done = run(layers.column.input);
+      const double flow = conductance > 0.0 ? 1.0 / (1.0 + 1.0 / conductance) : 0.0;
+      EXPECT_NEAR(pressure(done, layers.above), 0.5 * flow, 1e-8);
+      EXPECT_NEAR(pressure(done, layers.below), 1.0 - 0.5 * flow, 1e-8);
+    }
+}
+
+// Tight, the lower layer keeps its water; open, both are one.
+TEST(Consolidation, AnInterfaceIsTightOrOpen) {
+  const auto settled = [](double conductance) {
+    TwoLayers layers(8, conductance);
+    layers.column.load(shut_in());
+    layers.column.input.stages.push_back(consolidation(0.5, 20));
+    const WholeRun done = run(layers.column.input);
+    return std::pair{pressure(done, layers.below), pressure(done, layers.above)};
+  };
+  Column whole(graded(0.0, 1.0, 8));
+  whole.load(shut_in());
+  whole.input.stages.push_back(consolidation(0.5, 20));
+  const WholeRun one = run(whole.input);
+  const double middle = pressure(one, whole.mesh.node(0, 8));
+  EXPECT_NEAR(settled(1e10).first, middle, 1e-8);
+  EXPECT_NEAR(settled(1e10).second, middle, 1e-8);
+  EXPECT_NEAR(settled(0.0).first, 1.0, 1e-8);
+  EXPECT_LT(settled(0.0).second, 0.3);
+}
+
 // ---- balances and limits ----
 
 // A strip load on a block that drains through its top, with compressible water or not.
@@ -120,12 +337,14 @@ struct Block2d {
   }
 };
 
-// Sum over nodes of what has left, and the water in all elements.
+// Sum over nodes of what has left, and the water in all elements: what the listing shows.
 struct Volumes {
   double left = 0.0, content = 0.0, moved = 0.0;
 };
 struct VolumeObserver final : Observer {
   std::vector<Volumes> steps;
+  std::vector<WaterBoundary> boundaries;  // of the last step
+  double difference = 0.0;                // largest, as a share of all volumes
   void on_increment(const Model& model, const StepReport&, const Solution& now) override {
     Volumes sums;
     const DofMap map(model);
@@ -133,21 +352,10 @@ struct VolumeObserver final : Observer {
       sums.left += (*now.internal)[dof];
       sums.moved += std::abs((*now.internal)[dof]);
     }
-    std::vector<double> geometry;
-    Eigen::Matrix2Xd x;
-    for (const GroupData& data : now.groups()) {
-      const ElementTraits& traits = data.group->element->traits();
-      geometry.resize(static_cast<std::size_t>(traits.geometry_size()));
-      const auto history = static_cast<std::size_t>(data.state.history_size());
-      for (int e = 0; e < data.group->elements(); ++e) {
-        element_coordinates(model.mesh, *data.group, e, x);
-        data.group->element->geometry(x, geometry);
-        for (int p = 0; p < traits.points; ++p)
-          sums.content +=
-              geometry[static_cast<std::size_t>(p * (1 + 4 * traits.dofs))] *
-              data.state.committed.h[static_cast<std::size_t>(e * traits.points + p + 1) * history - 3];
-      }
-    }
+    const WaterBalance balance = water_balance(model, now.stage, now);
+    sums.content = balance.taken_up;
+    difference = std::max(difference, std::abs(balance.difference()) / balance.scale);
+    boundaries = balance.boundaries;
     steps.push_back(sums);
   }
 };
@@ -170,6 +378,56 @@ TEST(Consolidation, WaterIsBalancedInEveryStep) {
           EXPECT_LE(std::abs(step.left + step.content), 1e-10 * step.moved);
         }
       }
+}
+
+// A block that drains through its top and its base: each has what passes there.  Loaded in one stage, shut in, let go.
+TEST(Consolidation, EachBoundaryHasItsOutflow) {
+  for (const char* element : {"quad8p4", "tri6p3"})
+    for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+      SCOPED_TRACE(element);
+      Column column(graded(0.0, 1.0, 16), element, 0.0, 1, geometry);
+      column.input.supports.push_back(drained(column.mesh.corner_row(0)));
+      column.load(shut_in());
+      column.input.stages.push_back(consolidation(20.0, 30, 1.3));
+      VolumeObserver seen;
+      Observer* also[] = {&seen};
+      ASSERT_EQ(bench().run(build_model(column.input, bench().catalogue()), also).status, RunStatus::completed);
+      EXPECT_LE(seen.difference, 1e-10);
+      ASSERT_EQ(seen.boundaries.size(), 2u);
+      // The column shortens by 1 of its height: half of that volume leaves at each end.
+      const double area = geometry == Geometry::plane_strain ? 1.0 : kPi;
+      for (const WaterBoundary& boundary : seen.boundaries) {
+        EXPECT_EQ(boundary.nodes.size(), 2u);
+        EXPECT_NEAR(boundary.left, 0.5 * area, 1e-9);
+      }
+    }
+}
+
+long yielding_points(const WholeRun& run);
+
+// The shipped excavation, with its own settings: wall, joints, strut, two digs and a wait that ends by its degree.
+TEST(Consolidation, AnExcavationWithWallAndJoints) {
+  const std::string file = std::string(SAGE_SOURCE_DIR) + "/legacy_inputs/models/excavation_in_clay.sage.toml";
+  VolumeObserver seen;
+  Observer* also[] = {&seen};
+  const WholeRun done = bench().run(build_model(read_deck(file), bench().catalogue()), {}, also);
+  ASSERT_TRUE(done.completed()) << done.failure;
+  for (const Snapshot& at : done.increments) EXPECT_EQ(at.cuts, 0);
+  EXPECT_LE(seen.difference, 1e-10);
+  EXPECT_EQ(seen.boundaries.size(), 2u);  // the ground outside and the base of the dig
+  EXPECT_TRUE(done.warns("ended after a time of"));
+  EXPECT_LT(done.last().load_factor, 1.0);
+  EXPECT_GT(yielding_points(done), 0);
+  // Nothing jumps where a stage hands over to the next: the base rises on.
+  const int base = done.index(465);
+  double before = 0.0;
+  for (const Snapshot& at : done.increments) {
+    if (at.stage == 0) continue;
+    const double rise = at.u[DofMap::displacement(base, 1)];
+    EXPECT_GT(rise, before);
+    EXPECT_LT(rise - before, 2.5e-3);
+    before = rise;
+  }
 }
 
 // Behind a long time nothing is left of the water: displacements are those of the skeleton alone.
@@ -269,6 +527,49 @@ TEST(Consolidation, EmptyStagesChangeNothing) {
     EXPECT_LT((after.last().u - without.last().u).norm(), 1e-10 * u.norm());
     EXPECT_GT(std::abs(pressure(after, free) - pressure(before, free)), 1e-3);
   }
+}
+
+// Whatever a stage has done, the next one starts from it: stages in which nothing grows and no time passes change nothing,
+// behind a load that is undrained, drained or applied while water flows, and behind a change of the steady pressure.
+TEST(Consolidation, StagesHandOverWithoutAJump) {
+  const auto level = [](int stage, double y) {
+    WaterCard card;
+    card.stage = stage;
+    card.kind = WaterKind::line;
+    card.line = {{0.0, y}, {2.0, y}};
+    return card;
+  };
+  const std::vector<StageInput> kinds{shut_in(), {.title = "kept"}, consolidation(1.0, 2)};
+  for (std::size_t first = 0; first < kinds.size(); ++first)
+    for (const bool rises : {false, true})  // the steady pressure, in place of the load
+      for (std::size_t second = 0; second < kinds.size(); ++second) {
+        SCOPED_TRACE(testing::Message() << first << rises << second);
+        Block2d block("quad8p4");
+        block.input.supports.pop_back();
+        block.load(kinds[first]);
+        if (rises) block.input.stages.back().pressures.clear();
+        StageInput next = kinds[second];
+        next.duration = 1e-12;
+        block.input.stages.push_back(next);
+        // Goes on: with and without the stage between.
+        block.load(shut_in());
+        Model model = build_model(block.input, bench().catalogue());
+        model.water = {level(0, rises ? 2.0 : 1.0)};
+        const WholeRun with = bench().run(std::move(model));
+        ASSERT_TRUE(with.completed()) << with.failure;
+        ModelInput without_input = block.input;
+        without_input.stages.erase(without_input.stages.begin() + 1);
+        Model without_model = build_model(without_input, bench().catalogue());
+        without_model.water = {level(0, rises ? 2.0 : 1.0)};
+        const WholeRun without = bench().run(std::move(without_model));
+        ASSERT_TRUE(without.completed()) << without.failure;
+        std::vector<Eigen::VectorXd> ends(4);
+        for (const Snapshot& at : with.increments) ends[static_cast<std::size_t>(at.stage)] = at.u;
+        ends[3] = without.last().u;
+        ASSERT_GT(ends[2].norm(), 1e-3);
+        EXPECT_LT((ends[1] - ends[0]).norm(), 1e-9 * ends[2].norm());
+        EXPECT_LT((ends[3] - ends[2]).norm(), 1e-9 * ends[2].norm());
+      }
 }
 
 // A drained load while pressures are kept: what it squeezes out is no load of the next stage.
@@ -445,6 +746,31 @@ std::string refusal(const ModelInput& input) {
   return "taken";
 }
 
+TEST(Consolidation, StepsInTimeGoThroughDecksAndModelFiles) {
+  Block2d block("quad8p4");
+  block.load(shut_in());
+  StageInput wait = consolidation(2.5, 4, 1.5);
+  wait.time_error = 1e-4;
+  wait.end_degree = 0.95;
+  wait.end_pressure = 0.125;
+  wait.output_times = {0.1, 1.0 / 3.0, 2.0};
+  block.input.stages.push_back(wait);
+  const Model model = build_model(block.input, bench().catalogue());
+  Diagnostics notes;
+  const std::string deck = sage1_text(model, notes), file = model_file_text(model, bench().catalogue(), notes);
+  EXPECT_EQ(notes.warnings(), 0);
+  for (const std::string& text : {deck, file}) {
+    const Model again = build_model(text == file ? read_model_file_text(text, "written.sage.toml")
+                                                 : read_deck_text(text, "written", load_layout("sage1_wide")),
+                                    bench().catalogue());
+    EXPECT_EQ(fingerprint(model), fingerprint(again));
+    EXPECT_EQ(again.stages[1].output_times, wait.output_times);
+    EXPECT_EQ(again.stages[1].given_increments(), 4);
+    EXPECT_EQ(again.stages[1].increments, 7);
+    EXPECT_EQ(again.stages[1].end_pressure, 0.125);
+  }
+}
+
 TEST(Consolidation, BadInputIsRefusedByName) {
   const auto with = [](const auto& change) {
     Block2d block("quad8p4");
@@ -456,6 +782,18 @@ TEST(Consolidation, BadInputIsRefusedByName) {
   EXPECT_NE(with([](ModelInput& i) { i.stages[0].theta = 0.4; }).find("S362"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.stages[0].grading = -2.0; }).find("S362"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.stages[0].theta = std::nan(""); }).find("theta"), std::string::npos);
+  for (const auto& change : std::initializer_list<std::function<void(StageInput&)>>{
+           [](StageInput& s) { s.time_error = -1e-3; }, [](StageInput& s) { s.time_error = 0.5; },
+           [](StageInput& s) { s.time_error = 1e-3, s.theta = 0.5; }, [](StageInput& s) { s.end_degree = 1.0; },
+           [](StageInput& s) { s.end_degree = 0.9; },  // it loads
+           [](StageInput& s) { s.end_pressure = -1.0; }, [](StageInput& s) { s.output_times = {0.5, 1.5}; },
+           [](StageInput& s) { s.output_times = {0.0}; }})
+    EXPECT_NE(with([&](ModelInput& i) { change(i.stages[0]); }).find("S579"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) {
+              i.stages[0].pores = PoreWater::shut_in;
+              i.stages[0].time_error = 1e-3;
+            }).find("S579"),
+            std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 0; }).find("pore_flow"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 1; }).find("pore_flow"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 9; }).find("S225"), std::string::npos);
@@ -516,6 +854,10 @@ TEST(Consolidation, RestartsToTheLastBit) {
   Block2d block("tri6p3");
   block.load(shut_in());
   block.input.stages.push_back(consolidation(1.0, 3, 1.5, 0.7));
+  StageInput chosen = consolidation(3.0, 3, 2.0);
+  chosen.time_error = 1e-3;
+  chosen.end_degree = 0.6;
+  block.input.stages.push_back(chosen);
   block.input.stages.push_back({.title = "kept"});
   block.input.stages.push_back(consolidation(1.0, 2));
   std::vector<std::string> checkpoints;

@@ -108,13 +108,14 @@ Outcome ChangingRegion::evaluate_four_abreast(GroupData& data, const Eigen::Vect
 }
 
 // Whether the matrices that a group keeps are those of the step in hand.  Steps of one size differ by the rounding of
-// their times.
+// their times.  Matrices of flowing pore water depend on theta times the step alone.
 bool ChangingRegion::matrices_stand(const GroupData& data) const {
   constexpr double kRounding = 1e-9;
   const auto [dt, flow_dt, theta] = data.step_of_matrices;
   const StepTime& now = element_->step_time();
-  return data.keeps_matrices() && now.dt > 0.0 && std::abs(now.dt - dt) <= kRounding * dt &&
-         std::abs(now.flow_dt - flow_dt) <= kRounding * flow_dt && now.theta == theta;
+  const auto same = [](double a, double b) { return std::abs(a - b) <= kRounding * b; };
+  return data.keeps_matrices() && now.dt > 0.0 && dt > 0.0 && same(now.theta * now.flow_dt, theta * flow_dt) &&
+         (same(now.dt, dt) || data.group->entry->has_pores());
 }
 
 Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {

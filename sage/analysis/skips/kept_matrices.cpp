@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cstring>
 
+#include "sage/analysis/element_work.hpp"
+
 namespace sage {
 
 void keep_matrices(GroupData& data) {
-  constexpr std::size_t kMostKept = std::size_t{1} << 26;  // bytes
+  // Bytes.  Where one matrix serves all steps of a size, keeping them spares a factorisation in every step.
+  const std::size_t most = std::size_t{1} << (has_matrix_of_step(data) ? 28 : 26);
   const auto elements = static_cast<std::size_t>(data.group->elements());
-  if (elements * data.matrix_size() * sizeof(double) > kMostKept) return;
+  if (elements * data.matrix_size() * sizeof(double) > most) return;
   data.matrix.resize(elements);
   for (std::size_t e = 0; e < elements; ++e) data.matrix[e] = static_cast<int>(e);
   data.K.assign(elements * data.matrix_size(), 0.0);
