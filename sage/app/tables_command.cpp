@@ -15,6 +15,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
+#include "sage/app/water_tables.hpp"
 #include "sage/platform/module.hpp"
 
 namespace sage::app {
@@ -33,7 +34,7 @@ namespace {
 struct TableOptions {
   std::filesystem::path cases = shipped_decks() / "chapter7";
   std::filesystem::path folder = "out";
-  bool pinned = false;
+  bool pinned = false, water = false;
 };
 
 // A line of tables.csv.
@@ -206,8 +207,17 @@ Command tables_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("--cases", options->cases,
                     "folder with tables.csv and the decks (default: the program's own, see sagefe list decks)");
   parser.add_option("-o,--output", options->folder, "folder for results (default: out)");
-  parser.add_flag("--pinned", options->pinned, "only the columns with pinned ends");
-  return [options, &catalogue] { return print_tables(*options, catalogue); };
+  CLI::Option* pinned = parser.add_flag("--pinned", options->pinned, "only the columns with pinned ends");
+  parser
+      .add_flag(
+          "--water", options->water,
+          "the same tables for closed specimens whose water is free to move (docs/theory/closed_specimen.md)")
+      ->excludes(pinned);
+  return [options, &catalogue] {
+    if (!options->water) return print_tables(*options, catalogue);
+    print_water_tables({}, options->folder, catalogue);
+    return static_cast<int>(kOk);
+  };
 }
 
 }  // namespace sage::app

@@ -306,9 +306,7 @@ std::vector<NewField> Values::fields(const toml::table& given, const Table& tabl
     const bool is_list = key.want == Want::integers || key.want == Want::groups || key.want == Want::pairs;
     if (node != nullptr)
       add_value(key, given, *node, is_list ? last : list);
-    else if (key.fallback)
-      list.push_back({key.field, *key.fallback, where(given), {}});
-    else if (key.required && key.key != "number")
+    else if (key.required && !key.fallback && key.key != "number")
       error("S155", where(given),
             (table.key.empty() ? "the model" : "a " + table.key) + " needs its " + key.key + ", the " +
                 key.label);
