@@ -158,7 +158,8 @@ std::vector<Row> collapse_rows() {
       {"collapse-sand", family, "rough strip, phi = psi = 30, weightless with surcharge",
        "Prandtl: N_q = 18.40." + allowed + "; elements that lock must fail", axis, true, strip_on_sand},
       {"collapse-no-dilation", family, "rough strip, phi = 30, psi = 0, weightless with surcharge",
-       "plateau of an independent explicit code on the same mesh and element (quad8 reduced): 78.7 +- 1.3 kN of half "
+       "plateau of an independent explicit code on the same mesh and element (quad8 reduced): 78.7 +- 1.3 kN "
+       "of half "
        "the footing, 157.4 kPa. Allowed: 4 %; elements that lock must fail",
        "", false, strip_without_dilation},
   };
