@@ -3,8 +3,8 @@
 
 #include "elements/coupled_interface.hpp"
 #include "elements/entries.hpp"
-#include "elements/pore_field.hpp"
 #include "elements/interface.hpp"
+#include "elements/pore_field.hpp"
 
 namespace sage {
 

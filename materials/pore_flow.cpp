@@ -18,9 +18,9 @@ const std::vector<Parameter>& rows() {
 }
 
 const std::vector<Parameter>& joint_rows() {
-  static const std::vector<Parameter> table = {
-      required("conductance", Dimension::none,
-               "permeability over thickness, 1/time: what crosses per area for a drop of head of 1; 0 = tight")};
+  static const std::vector<Parameter> table = {required(
+      "conductance", Dimension::none,
+      "permeability over thickness, 1/time: what crosses per area for a drop of head of 1; 0 = tight")};
   return table;
 }
 
@@ -44,11 +44,12 @@ MaterialEntry pore_flow_entry() {
 }
 
 MaterialEntry pore_joint_entry() {
-  MaterialEntry entry{"pore_joint", "water that crosses an interface of consolidating soil", 1, joint_rows(),
-                      [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
-                        const Parameters p(joint_rows(), values, units);
-                        return std::make_unique<PoreJoint>(p.not_negative("conductance") / p.water_unit_weight());
-                      }};
+  MaterialEntry entry{
+      "pore_joint", "water that crosses an interface of consolidating soil", 1, joint_rows(),
+      [](std::span<const double> values, const UnitSystem& units) -> LawPtr {
+        const Parameters p(joint_rows(), values, units);
+        return std::make_unique<PoreJoint>(p.not_negative("conductance") / p.water_unit_weight());
+      }};
   entry.of_pores = true;
   return entry;
 }

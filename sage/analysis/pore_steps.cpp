@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFirstPart = 1.0 - 0.5 * std::numbers::sqrt2, kSecondTheta = std::numbers::sqrt2 - 1.0;
 // The error of one step of p' = -z p is at most these shares of what the rates show, for every z > 0.
-constexpr double kOfThirdDerivative = 0.0691, kOfFirstStep = 0.2262;
+constexpr double kOfThirdDerivative = 0.0691, kOfSecondDerivative = 0.2262;
 constexpr double kSmallestStep = 1e-10;  // share of the stage
 
 bool has_flow(const Stage& stage) {
@@ -65,8 +65,7 @@ Eigen::VectorXd pore_volumes(const Model& model, std::span<const GroupData> grou
       double volume = 0.0;
       for (int p = 0; p < traits.points; ++p)
         volume += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
-      for (int i = 0; i < corners; ++i)
-        volumes[map.of(data.group->nodes_of(e)[i], field)] += volume / corners;
+      for (int i = 0; i < corners; ++i) volumes[map.of(data.group->nodes_of(e)[i], field)] += volume / corners;
     }
   }
   return volumes;
@@ -89,10 +88,8 @@ void PoreSteps::resume(const RunParts& run) {
 }
 
 double PoreSteps::next(double end) const {
-  constexpr double kFirst = 1e-4;  // of the way
-  const double size = run_.state.path.pores.size, left = end - run_.state.reached;
-  const double wanted = size > 0.0 ? size : kFirst * left;
-  return wanted >= left ? left : wanted > 0.5 * left ? 0.5 * left : std::max(wanted, kSmallestStep);
+  const double wanted = std::max(run_.state.path.pores.size, kSmallestStep), left = end - run_.state.reached;
+  return wanted >= left ? left : wanted > 0.5 * left ? 0.5 * left : wanted;
 }
 
 void PoreSteps::begin_part(Part part, double size) {
@@ -114,17 +111,27 @@ double PoreSteps::root_mean_square(const Eigen::VectorXd& pressures) const {
 double PoreSteps::error_of(double dt, const Eigen::VectorXd& first_rate,
                            const Eigen::VectorXd& last_rate) const {
   const Eigen::VectorXd& rate = run_.state.path.pores.rate;
-  const double alone =
-      kOfFirstStep * root_mean_square(run_.state.u - start_ - dt * first_rate);
-  if (rate.size() == 0) return alone;
+  const double alone = kOfSecondDerivative * root_mean_square(run_.state.u - start_ - dt * first_rate);
   const Eigen::VectorXd third =
       2.0 * dt * ((last_rate - first_rate) / (1.0 - kFirstPart) - (first_rate - rate) / kFirstPart);
   return std::min(alone, kOfThirdDerivative * root_mean_square(third));
 }
 
+// The first step of a stage takes next to no time.  Its first part balances what supports have changed at once, which is no
+// error of time; the second one starts the rates.
+bool PoreSteps::open_in_no_time(double dt) {
+  PorePath& pores = run_.state.path.pores;
+  const Eigen::VectorXd change = run_.state.u - middle_;
+  pores.rate = change / ((1.0 - kFirstPart) * dt);
+  pores.error += root_mean_square(change) / (1.0 - kFirstPart);
+  ++pores.steps;
+  return true;
+}
+
 bool PoreSteps::accept(double size) {
   PorePath& pores = run_.state.path.pores;
   const double dt = size * run_.stage().duration;
+  if (pores.steps == 0) return open_in_no_time(dt);
   const Eigen::VectorXd first = (middle_ - start_) / (kFirstPart * dt);
   Eigen::VectorXd last =
       ((run_.state.u - middle_) / ((1.0 - kFirstPart) * dt) - (1.0 - kSecondTheta) * first) / kSecondTheta;
@@ -179,12 +186,12 @@ std::vector<Diagnostic> PoreSteps::remarks(const RunParts& run) {
                                  "the duration of " + short_number(stage.duration) +
                                      " is over before the degree or pressure that ends it: " + reached));
   if (stage.time_error > 0.0)
-    list.push_back(stage_message(
-        stage, "S600",
-        std::to_string(pores.steps) + " steps in time; their errors add up to at most " +
-            short_number(pores.largest > 0.0 ? pores.error / pores.largest : 0.0) +
-            " of the largest excess pressure (both root mean squares over the volume)",
-        Severity::note));
+    list.push_back(stage_message(stage, "S600",
+                                 std::to_string(pores.steps) +
+                                     " steps in time; their errors add up to at most " +
+                                     short_number(pores.largest > 0.0 ? pores.error / pores.largest : 0.0) +
+                                     " of the largest excess pressure (both root mean squares over the volume)",
+                                 Severity::note));
   return list;
 }
 

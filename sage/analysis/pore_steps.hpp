@@ -37,6 +37,7 @@ class PoreSteps {
   static std::vector<Diagnostic> remarks(const RunParts& run);
 
  private:
+  bool open_in_no_time(double dt);
   double root_mean_square(const Eigen::VectorXd& pressures) const;
   double error_of(double dt, const Eigen::VectorXd& first_rate, const Eigen::VectorXd& last_rate) const;
 

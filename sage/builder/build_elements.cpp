@@ -465,10 +465,11 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
     const MaterialEntry* const law = b.catalogue.materials.find(second.code);
     if (law_size_of(b, second) == size && law->of_pores == pores && !law->flow) return;
   }
-  b.error("S225", card.where("second_material"),
-          name + ": a " + group.entry->name + " needs a second material, whose law " +
-              (pores ? std::string("is for flow of pore water: ") + (group.interface() ? "pore_joint" : "pore_flow")
-                     : "has " + std::to_string(size) + (size == 1 ? " component" : " components")));
+  b.error(
+      "S225", card.where("second_material"),
+      name + ": a " + group.entry->name + " needs a second material, whose law " +
+          (pores ? std::string("is for flow of pore water: ") + (group.interface() ? "pore_joint" : "pore_flow")
+                 : "has " + std::to_string(size) + (size == 1 ? " component" : " components")));
 }
 
 // The element of a group in the formulation that the card names or leaves open.

@@ -435,7 +435,8 @@ std::vector<double> read_times(Builder& b, const CardView& card, double duration
     const bool good = problem == std::errc() && end == word.data() + word.size();
     if (!good || !(time > 0.0 && time <= duration * (1.0 + 1e-12))) {
       b.error("S579", card.where("output_times"),
-              "output time '" + word + "': times are numbers above 0 and at most the duration of the stage, "
+              "output time '" + word +
+                  "': times are numbers above 0 and at most the duration of the stage, "
                   "with blanks between");
       return {};
     }
@@ -453,8 +454,7 @@ void divide_at_output_times(Stage& stage) {
   if (stage.output_times.empty() || stage.increments < 1 || !(stage.grading > 0.0)) return;
   const GradedIncrements graded(stage.grading);
   std::vector<double> ends;
-  for (int i = 1; i <= stage.increments; ++i)
-    ends.push_back(graded.load_factor(0, i, stage.increments));
+  for (int i = 1; i <= stage.increments; ++i) ends.push_back(graded.load_factor(0, i, stage.increments));
   const auto known = [&](double end) {
     return std::ranges::any_of(ends, [&](double one) { return std::abs(one - end) <= kSame * end; });
   };

@@ -59,10 +59,11 @@ void lengthen_cards(Layout& layout) {
        field("grading", "each increment over the one before; blank = 1", FieldKind::real),
        field("reset_displacements", "1: displacements count from the start of this stage; 0 they go on",
              FieldKind::integer),
-       field("time_error",
-             "consolidation: largest error of one step in time, as a share of the largest excess pressure (root "
-             "mean square); blank = steps are the increments",
-             FieldKind::real),
+       field(
+           "time_error",
+           "consolidation: largest error of one step in time, as a share of the largest excess pressure (root "
+           "mean square); blank = steps are the increments",
+           FieldKind::real),
        field("end_degree", "consolidation: the stage ends at this degree of consolidation", FieldKind::real),
        field("end_pressure", "consolidation: the stage ends when no excess pressure is larger",
              FieldKind::real),

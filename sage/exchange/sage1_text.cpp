@@ -416,7 +416,8 @@ void Sage1Writer::stage(const Stage& stage) {
                                 of_groups(stage.births),
                                 of_groups(stage.deaths),
                                 of_groups(stage.initials)};
-  for (int value : {stage.given_increments(), static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
+  for (int value :
+       {stage.given_increments(), static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
     integer(value);
   for (std::size_t count : counts) integer(static_cast<long>(count));
   for (double value : {stage.gravity.x(), stage.gravity.y(), stage.tolerance}) real(value);

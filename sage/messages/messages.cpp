@@ -1086,13 +1086,16 @@ constexpr MessageEntry kMessages[] = {
      "both."},
 
     {"S579", "the steps or the end of a stage of consolidation do not fit",
-     "The fields time_error, end_degree, end_pressure and output_times of a stage need pore_water 2, values in their "
-     "range, and theta blank beside time_error. A stage that ends by degree or pressure changes no load, support or "
+     "The fields time_error, end_degree, end_pressure and output_times of a stage need pore_water 2, values in "
+     "their "
+     "range, and theta blank beside time_error. A stage that ends by degree or pressure changes no load, "
+     "support or "
      "group: such changes take the whole duration.",
      "Correct the field, or put the load into a stage of its own before the wait "
      "(docs/manual/consolidation.md)."},
     {"S580", "how a stage of consolidation ended",
-     "A stage with end_degree or end_pressure ends behind the first step that reaches it. As a warning: its duration "
+     "A stage with end_degree or end_pressure ends behind the first step that reaches it. As a warning: its "
+     "duration "
      "was over before.",
      "Where the duration was too short, make it longer."},
 
@@ -1114,7 +1117,8 @@ constexpr MessageEntry kMessages[] = {
      "sagefe align found values beside their columns. More than one set of fields can hold them, or none can.",
      "Write 0 for each blank field of the card, or move the values by hand; sagefe echo shows the columns."},
     {"S600", "the error of steps in time",
-     "Steps of a stage with time_error are chosen by a bound on the error of each. Errors die out as pressures do, so "
+     "Steps of a stage with time_error are chosen by a bound on the error of each. Errors die out as pressures "
+     "do, so "
      "their sum is a bound on the error at every time of the stage.",
      "Nothing has to be done. A smaller time_error gives a smaller sum, by more steps."},
     {"S601", "a result can't be written",

@@ -223,7 +223,8 @@ struct Stage {
   double end_degree = 0.0, end_pressure = 0.0;
   std::vector<double> output_times;  // since the start of the stage; each is the end of an increment
   std::vector<double> ends;          // load factors at the ends of increments; empty = by the grading
-  int divisions = 0;  // increments of the card, where `increments` counts those of output_times too; 0 = none are added
+  int divisions =
+      0;  // increments of the card, where `increments` counts those of output_times too; 0 = none are added
   Method method = Method::newton;
   int max_iterations = 25;
   int output_every = 1;

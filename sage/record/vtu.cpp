@@ -220,8 +220,8 @@ void Vtu::add(const Model& model, const StepReport& report, const Solution& solu
   write_file(files_.back(), vtu_text(model, solution, comment, &report));
   const StateTime time(model);
   if (count_ == 1) pvd_.text() += fmt::format("    <!-- timestep: {} -->\n", time.meaning());
-  pvd_.text() += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n",
-                             time.at(report), xml_text(name));
+  pvd_.text() += fmt::format("    <DataSet timestep=\"{:.9g}\" part=\"0\" file=\"{}\"/>\n", time.at(report),
+                             xml_text(name));
   pvd_.checkpoint();
 }
 

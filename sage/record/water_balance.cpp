@@ -84,8 +84,7 @@ double WaterBalance::difference() const {
 WaterBalance water_balance(const Model& model, int stage, const Solution& solution) {
   WaterBalance balance;
   const Activity& activity = *solution.activity;
-  const std::vector<int> boundary_of =
-      joined_boundaries(solution, permeable_nodes(model, stage, activity));
+  const std::vector<int> boundary_of = joined_boundaries(solution, permeable_nodes(model, stage, activity));
   const int field = model.pore_field();
   std::vector<int> place(boundary_of.size(), -1);
   for (std::size_t node = 0; node < boundary_of.size(); ++node) {
@@ -113,7 +112,8 @@ WaterBalance water_balance(const Model& model, int stage, const Solution& soluti
 }
 
 std::string water_balance_table(const Model& model, const WaterBalance& balance) {
-  std::string text = fmt::format("\n   Pore water since the start {}\n", unit_text(Dimension::volume, model.units));
+  std::string text =
+      fmt::format("\n   Pore water since the start {}\n", unit_text(Dimension::volume, model.units));
   const auto row = [&](const std::string& what, double value) {
     text += fmt::format("   {:<52}{:>16.8g}\n", what, value);
   };
@@ -125,7 +125,8 @@ std::string water_balance_table(const Model& model, const WaterBalance& balance)
                           number(boundary.nodes.back()), boundary.nodes.size()),
         boundary.left);
   }
-  if (std::abs(balance.elsewhere) > 1e-10 * balance.scale) row("left at nodes that are closed now", balance.elsewhere);
+  if (std::abs(balance.elsewhere) > 1e-10 * balance.scale)
+    row("left at nodes that are closed now", balance.elsewhere);
   row("taken up by the ground", balance.taken_up);
   text += fmt::format("   {:<52}{:>16.1e}\n", "sum, as a share of all volumes",
                       balance.scale > 0.0 ? std::abs(balance.difference()) / balance.scale : 0.0);

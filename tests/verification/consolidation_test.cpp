@@ -173,14 +173,12 @@ TEST(Consolidation, AStageEndsByDegreeOrPressureAndTimeGoesOn) {
     SCOPED_TRACE(by_degree);
     TimeObserver seen;
     Observer* also[] = {&seen};
-    const WholeRun done =
-        column_in_time(40, 1e-5, {}, by_degree ? 0.9 : 0.0, by_degree ? 0.0 : kBase, also);
+    const WholeRun done = column_in_time(40, 1e-5, {}, by_degree ? 0.9 : 0.0, by_degree ? 0.0 : kBase, also);
     ASSERT_EQ(done.increments.size(), 4u);
     const double ended = seen.times[1] - 1.0;  // the undrained stage lasts 1
     EXPECT_GE(ended, kT90 - 5e-4);
     EXPECT_LE(ended, 1.15 * kT90);
     EXPECT_NEAR(seen.times[3], 1.0 + ended + 1.0, 1e-12);
-    EXPECT_TRUE(done.warns("S580"));
     EXPECT_TRUE(done.warns("ended after a time of"));
   }
   EXPECT_TRUE(column_in_time(10, 1e-3, {}, 0.9999).warns("is over before the degree"));
@@ -231,12 +229,15 @@ struct TwoLayers {
       upper.push_back(static_cast<int>(input.nodes.size()));
     }
     for (std::vector<int>& nodes : input.groups[0].elements) {
-      const auto is_above = [&](int node) { return input.nodes[static_cast<std::size_t>(node - 1)].y() > 0.5 + 1e-9; };
+      const auto is_above = [&](int node) {
+        return input.nodes[static_cast<std::size_t>(node - 1)].y() > 0.5 + 1e-9;
+      };
       if (std::ranges::none_of(nodes, is_above)) continue;
       for (std::size_t i = 0; i < lower.size(); ++i) std::ranges::replace(nodes, lower[i], upper[i]);
     }
     input.supports.push_back(held({upper.front(), upper.back()}, true, false));
-    input.materials.push_back({"goodman", {{"shear_stiffness", 1e9}, {"normal_stiffness", 1e9}, {"tension", 1.0}}});
+    input.materials.push_back(
+        {"goodman", {{"shear_stiffness", 1e9}, {"normal_stiffness", 1e9}, {"tension", 1.0}}});
     input.materials.push_back({"pore_joint", {{"conductance", conductance}}});
     input.groups.push_back({.element = "interface6p4",
                             .material = 3,
@@ -258,7 +259,7 @@ TEST(Consolidation, ALeakingInterfaceFollowsItsSeries) {
     TwoLayers layers(rows, 2.0);
     layers.column.load(shut_in());
     StageInput wait = consolidation(0.5, 1);
-    wait.time_error = 1e-7;
+    wait.time_error = 1e-8;
     wait.output_times = {0.1};
     layers.column.input.stages.push_back(wait);
     const WholeRun done = run(layers.column.input);
@@ -786,7 +787,10 @@ TEST(Consolidation, BadInputIsRefusedByName) {
            [](StageInput& s) { s.time_error = -1e-3; }, [](StageInput& s) { s.time_error = 0.5; },
            [](StageInput& s) { s.time_error = 1e-3, s.theta = 0.5; }, [](StageInput& s) { s.end_degree = 1.0; },
            [](StageInput& s) { s.end_degree = 0.9; },  // it loads
-           [](StageInput& s) { s.end_pressure = -1.0; }, [](StageInput& s) { s.output_times = {0.5, 1.5}; },
+           [](StageInput& s) { s.end_pressure = -1.0; },
+           [](StageInput& s) {
+             s.output_times = {0.5, 1.5};
+           },
            [](StageInput& s) { s.output_times = {0.0}; }})
     EXPECT_NE(with([&](ModelInput& i) { change(i.stages[0]); }).find("S579"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) {
