@@ -2,70 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "sage/bounds/check.hpp"
+
 namespace sage::bounds {
 
 namespace {
-
-constexpr double kExact = 1e-11;  // residuals below are rounding
-
-// What the check of one field found.
-struct Check {
-  double residual = 0.0, reserve = 0.0;
-  double value = 0.0;  // tau, in the units of the program
-  bool passed() const { return residual <= kExact && reserve >= -1e-14; }
-};
-
-// Equilibrium and yield of a stress field, from the fields alone.
-Check check_stress(const ConeProgram& program, const Eigen::Matrix3Xd& sigma, double tau) {
-  Check check;
-  check.value = tau;
-  const Eigen::VectorXd loads = program.b0 + tau * program.b1, rest = loads - forces(program, sigma);
-  const double size =
-      std::max(program.b0.cwiseAbs().maxCoeff(), std::abs(tau) * program.b1.cwiseAbs().maxCoeff());
-  check.residual = rest.cwiseAbs().maxCoeff() / std::max(size, 1e-300);
-  double least = 1e300, largest = 0.0;
-  for (std::size_t c = 0; c < program.cones.size(); ++c) {
-    const Cone& cone = program.cones[c];
-    const Vector3 s = cone.h0 + tau * cone.h1 - cone.G * sigma.col(static_cast<Eigen::Index>(c));
-    least = std::min(least, s[0] - std::hypot(s[1], s[2]));
-    largest = std::max(largest, s[0]);
-  }
-  check.reserve = least / largest;
-  return check;
-}
-
-// Flow rule of a velocity field and the power of dissipation, from the velocities alone.
-Check check_velocity(const ConeProgram& program, const Eigen::VectorXd& u) {
-  Check check;
-  const Eigen::Matrix3Xd e = strains(program, u);
-  double scale = 0.0, dissipation = 0.0, strength = 0.0, least = 1e300, residual = 0.0;
-  for (std::size_t c = 0; c < program.cones.size(); ++c) {
-    const Cone& cone = program.cones[c];
-    const auto k = static_cast<Eigen::Index>(c);
-    const Matrix3 back = Eigen::CompleteOrthogonalDecomposition<Matrix3>(cone.G).pseudoInverse();
-    Vector3 z = back.transpose() * e.col(k);
-    residual = std::max(residual, (e.col(k) - cone.G.transpose() * z).cwiseAbs().maxCoeff());
-    const double bent = std::hypot(z[1], z[2]);
-    if (cone.G.row(0).isZero())
-      z[0] = bent;
-    else
-      least = std::min(least, z[0] - bent);
-    scale = std::max(scale, z[0]);
-    dissipation += cone.h0.dot(z);
-    strength += cone.h1.dot(z);
-  }
-  check.residual = residual / std::max(scale, 1e-300);
-  check.reserve = least > 1e299 ? 0.0 : least / std::max(scale, 1e-300);
-  const double power = program.b1.dot(u) - strength;
-  check.value = (dissipation - program.b0.dot(u)) / power;
-  if (!(power > 0.0)) check.reserve = -1.0;
-  return check;
-}
 
 struct Solved {
   BoundProgram program;
@@ -406,9 +351,12 @@ Bounds find_bounds(const Domain& domain, const Options& options) {
     last = static_cast<int>(all.domain.triangles.size()) >= 0.95 * options.elements ||
            (gap && *gap <= options.gap);
   }
-  // What a coarser mesh proved stays proved.
-  if (!best.relative_gap() || all.relative_gap() || all.stopped) return all;
-  best.rounds = std::move(all.rounds);
+  return proved(std::move(best), std::move(all));
+}
+
+Bounds proved(Bounds best, Bounds last) {
+  if (!best.relative_gap() || last.relative_gap() || last.stopped) return last;
+  best.rounds = std::move(last.rounds);
   return best;
 }
 

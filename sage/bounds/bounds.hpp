@@ -52,6 +52,10 @@ struct Bounds {
 
 Bounds find_bounds(const Domain& domain, const Options& options);
 
+// What a coarser mesh proved stays proved: the last bounds, or the best before them where these lack one.  Rounds are
+// those of the last.
+Bounds proved(Bounds best, Bounds last);
+
 // With c / F and tan(phi) / F.
 Domain reduced(Domain domain, double factor);
 

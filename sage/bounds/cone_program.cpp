@@ -99,7 +99,7 @@ std::vector<Coupling> couplings_of(const ConeProgram& program) {
 class InteriorPoint {
  public:
   InteriorPoint(const ConeProgram& program, const ConeOptions& options)
-      : p_(program), options_(options), factor_(program.equations(), couplings_of(program)) {
+      : p_(program), options_(options), factor_(program.equations(), couplings_of(program), program.dependent) {
     start();
   }
 
@@ -410,7 +410,7 @@ void InteriorPoint::mend() {
   }
   factorise(primal ? 1.0 / (mean * mean) : 1e-6);
   double last = size();
-  for (int turn = 0; turn < 6 && last > 1e-15; ++turn) {
+  for (int turn = 0; turn < 20 && last > 1e-15; ++turn) {
     const Stresses sigma = sigma_, s = s_, z = z_;
     const Eigen::VectorXd y = y_;
     const double tau = tau_;
@@ -436,7 +436,7 @@ void InteriorPoint::mend() {
       tau_ = tau;
       break;
     }
-    if (now > 0.5 * last) break;
+    if (now > 0.8 * last) break;
     last = now;
   }
 }

@@ -36,7 +36,8 @@ struct Part {
 struct ConeProgram {
   std::vector<Cone> cones;  // by point
   std::vector<Part> parts;
-  Eigen::VectorXd b0, b1;  // one entry an equation
+  Eigen::VectorXd b0, b1;      // one entry an equation
+  std::vector<int> dependent;  // equations that follow from others, whose multipliers are zero
 
   int points() const { return static_cast<int>(cones.size()); }
   int equations() const { return static_cast<int>(b0.size()); }

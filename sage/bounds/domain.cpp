@@ -118,10 +118,27 @@ class Bisection {
     }
     return split_side(edge);
   }
+  // Where the line between the nodes opposite to an edge crosses it, if near the middle: four edges nearly on two lines
+  // would give equations that nearly depend on others; on two lines, one of them depends and is left out.
+  double share_at(const Key& edge, const std::array<int, 2>& both) const {
+    constexpr double kNear = 0.2;
+    if (both[0] < 0 || both[1] < 0) return 0.5;
+    const Vector2 a = d_.x[at(edge.first)], r = d_.x[at(edge.second)] - a,
+                  p = d_.x[at(opposite(both[0], edge))], q = d_.x[at(opposite(both[1], edge))] - p;
+    const double turn = r.x() * q.y() - r.y() * q.x();
+    const double share = ((p - a).x() * q.y() - (p - a).y() * q.x()) / turn;
+    return std::abs(share - 0.5) < kNear ? share : 0.5;
+  }
+  int opposite(int t, const Key& edge) const {
+    for (const int node : d_.triangles[at(t)].node)
+      if (node != edge.first && node != edge.second) return node;
+    return -1;
+  }
   int split_side(const Key& edge) {
     const int middle = static_cast<int>(d_.x.size());
-    d_.x.push_back(0.5 * (d_.x[at(edge.first)] + d_.x[at(edge.second)]));
     const std::array<int, 2> both = owners_.at(edge);
+    d_.x.push_back(d_.x[at(edge.first)] +
+                   share_at(edge, both) * (d_.x[at(edge.second)] - d_.x[at(edge.first)]));
     for (const int t : both)
       if (t >= 0) split_triangle(t, edge, middle);
     split_boundary(edge, middle);

@@ -40,15 +40,10 @@ class GroundMaker {
     for (int s = 0; s <= stage; ++s) activity_.enter(m_.stages[at(s)]);
     halves_ = room > 0 && wants_halves(room);
   }
-  // Halves that are bisected meet in nodes whose four edges lie nearly on two lines.  Without friction the flow rule, no
-  // change of volume, then has equations that nearly depend on others.
   bool wants_halves(int room) const {
     int elements = 0;
-    for (std::size_t g = 0; g < m_.groups.size(); ++g) {
-      if (!is_ground(g)) continue;
-      elements += m_.groups[g].elements();
-      if (!(strength_of(m_.material_of(m_.groups[g])).friction > 0.0)) return false;
-    }
+    for (std::size_t g = 0; g < m_.groups.size(); ++g)
+      if (is_ground(g)) elements += m_.groups[g].elements();
     return 4 * elements > 3 * room / 4;
   }
   bool wants_heads() const {

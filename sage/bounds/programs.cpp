@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/bounds/dependent_equations.hpp"
+
 namespace sage::bounds {
 
 namespace {
@@ -191,6 +193,7 @@ class Lower {
     build_.add_motion(motion_);
     build_.result_.stress_free = free_;
     build_.result_.stress_free.resize(build_.result_.program.cones.size(), 0);
+    build_.result_.program.dependent = dependent_equations(build_.result_.program, nodes_of_equations());
     return build_.finish();
   }
 
@@ -222,6 +225,15 @@ class Lower {
         }
     }
     build_.size_equations(next);
+  }
+
+  std::vector<int> nodes_of_equations() const {
+    std::vector<int> nodes(at(build_.result_.program.equations()), -1);
+    for (std::size_t e = 0; e < edges_.all.size(); ++e)
+      for (std::size_t i = 0; i < 4; ++i)
+        if (const int equation = rows_[e][i].equation; equation != kHeld && equation != motion_)
+          nodes[at(equation)] = i < 2 ? edges_.all[e].a : edges_.all[e].b;
+    return nodes;
   }
 
   // Without cohesion a corner on a surface free of traction has no stress at all, nor has its neighbour across an edge

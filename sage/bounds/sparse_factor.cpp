@@ -33,8 +33,11 @@ int factorise_panel(Eigen::Ref<Eigen::MatrixXd> a, const double* diagonal, doubl
 
 }  // namespace
 
-SparseFactor::SparseFactor(int equations, std::span<const Coupling> couplings)
-    : couplings_(couplings.begin(), couplings.end()), place_(static_cast<std::size_t>(equations), -1) {
+SparseFactor::SparseFactor(int equations, std::span<const Coupling> couplings, std::span<const int> left_out)
+    : couplings_(couplings.begin(), couplings.end()),
+      place_(static_cast<std::size_t>(equations), -1),
+      left_out_(static_cast<std::size_t>(equations), 0) {
+  for (const int e : left_out) left_out_[static_cast<std::size_t>(e)] = 1;
   std::vector<int> order(couplings.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   if (!order.empty()) divide(order, 0, static_cast<int>(order.size()), couplings);
@@ -136,7 +139,9 @@ void SparseFactor::scatter(int coupling, const Eigen::MatrixXd& part) {
 void SparseFactor::eliminate(std::size_t f, double negligible) {
   Front& front = fronts_[f];
   const Eigen::Index n = work_.rows(), pivots = front.pivots;
-  const Eigen::VectorXd diagonal = work_.diagonal();
+  Eigen::VectorXd diagonal = work_.diagonal();
+  for (Eigen::Index k = 0; k < pivots; ++k)
+    if (left_out_[static_cast<std::size_t>(front.equations[static_cast<std::size_t>(k)])]) diagonal[k] = kHuge;
   for (Eigen::Index j = 0; j < pivots; j += kPanel) {
     const Eigen::Index width = std::min<Eigen::Index>(kPanel, pivots - j), below = n - j - width;
     auto block = work_.block(j, j, width, width);

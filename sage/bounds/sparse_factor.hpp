@@ -17,7 +17,8 @@ struct Coupling {
 // Multifrontal L L^T by nested dissection of the couplings by their places.
 class SparseFactor {
  public:
-  SparseFactor(int equations, std::span<const Coupling> couplings);
+  // left_out: equations whose unknown is 0.
+  SparseFactor(int equations, std::span<const Coupling> couplings, std::span<const int> left_out = {});
 
   // The matrix to be factorised: `part(i)` gives the i-th small matrix (of which the lower triangle is read) in the
   // order of its equations.  Pivots below `negligible` of their diagonal term mark an equation that depends on
@@ -53,7 +54,8 @@ class SparseFactor {
 
   std::vector<Front> fronts_;  // children before their parents
   std::vector<Coupling> couplings_;
-  std::vector<int> place_;  // of an equation in the front under way
+  std::vector<int> place_;      // of an equation in the front under way
+  std::vector<char> left_out_;  // by equation
   Eigen::MatrixXd work_;
   int dropped_ = 0;
 };

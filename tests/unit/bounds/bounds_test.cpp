@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "sage/bounds/check.hpp"
 #include "tests/unit/bounds/meshes.hpp"
 
 namespace sage::bounds {
@@ -168,6 +169,49 @@ TEST(Bounds, SayWhyThereIsNone) {
   } else {
     EXPECT_FALSE(found.lower.reason.empty());
   }
+}
+
+// A field that lacks 1e-8 of equilibrium, of the flow rule or of the strength does not pass.
+TEST(Check, RejectsFieldsThatAreNearlyStrict) {
+  const Domain d = vertical_cut(2, {{1.0, 0.0}, Vector2::Zero(), Vector2(0.0, -1.0)});
+  const ConeProgram lower = lower_program(d, edges_of(d), Quantity::load).program;
+  ConeOptions options;
+  ConeSolution found = solve(lower, options);
+  ASSERT_TRUE(check_stress(lower, found.sigma, found.tau).passed());
+  EXPECT_FALSE(check_stress(lower, found.sigma, found.tau * (1.0 + 1e-8)).passed());
+  // Equilibrium holds, with a load beyond what the ground carries: two fields of the same loads, apart by 1e3.
+  EXPECT_FALSE(check_stress(lower, 1e3 * found.sigma, 1e3 * found.tau).passed());
+  found.sigma(2, 0) += 1e-8 * found.sigma.cwiseAbs().maxCoeff();
+  EXPECT_FALSE(check_stress(lower, found.sigma, found.tau).passed());
+
+  const ConeProgram upper = upper_program(d, edges_of(d), Quantity::load).program;
+  options.side = Side::dual;
+  const ConeSolution moving = solve(upper, options);
+  ASSERT_TRUE(check_velocity(upper, moving.u).passed());
+  for (const Eigen::Index one : {Eigen::Index{0}, moving.u.size() / 2}) {
+    Eigen::VectorXd u = moving.u;
+    u[one] += 1e-8 * u.cwiseAbs().maxCoeff();
+    EXPECT_FALSE(check_velocity(upper, u).passed());
+  }
+  EXPECT_FALSE(check_velocity(upper, -moving.u).passed());  // against the load
+}
+
+// Where the last mesh lacks a bound, those of the best mesh before are the answer, with all rounds.
+TEST(Bounds, KeepWhatACoarserMeshProved) {
+  Bounds best, last;
+  best.lower.value = 1.0;
+  best.upper.value = 1.2;
+  best.rounds = {{10, 1.0, 1.2}};
+  last.lower.value = 1.1;
+  last.rounds = {{10, 1.0, 1.2}, {20, 1.1, {}}};
+  const Bounds kept = proved(best, last);
+  EXPECT_EQ(kept.lower.value, 1.0);
+  EXPECT_EQ(kept.upper.value, 1.2);
+  EXPECT_EQ(kept.rounds.size(), 2u);
+  last.upper.value = 1.15;
+  EXPECT_EQ(proved(best, last).upper.value, 1.15);
+  last.upper.value.reset();
+  EXPECT_EQ(proved({}, last).lower.value, 1.1);  // no mesh gave both: what the last one gave
 }
 
 // Drucker-Prager cones have the limit of Mohr-Coulomb in the plane: cone 3 for the same c and phi.

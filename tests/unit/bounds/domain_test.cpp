@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sage/bounds/programs.hpp"
 #include "tests/unit/bounds/meshes.hpp"
 
 namespace sage::bounds {
@@ -90,6 +91,30 @@ TEST(Domain, DividesBothSidesOfAJoint) {
   }
   EXPECT_NEAR(length, 1.0, 1e-14);
   EXPECT_GT(d.joints.size(), 1u);
+}
+
+// The line between the nodes opposite to an edge meets it in the new node.
+TEST(Domain, DividesEdgesWhereDiagonalsCross) {
+  Domain d;
+  d.x = {{0.0, 0.0}, {2.0, 0.0}, {2.1, 1.2}, {0.0, 1.0}};
+  d.triangles = {{{0, 1, 2}, 0, 0}, {{0, 2, 3}, 0, 0}};
+  refine(d, {1, 0});
+  ASSERT_EQ(d.x.size(), 5u);
+  const Vector2 a = d.x[4] - d.x[1], b = d.x[3] - d.x[1], c = d.x[4] - d.x[0], e = d.x[2] - d.x[0];
+  EXPECT_NEAR(a.x() * b.y() - a.y() * b.x(), 0.0, 1e-14);
+  EXPECT_NEAR(c.x() * e.y() - c.y() * e.x(), 0.0, 1e-14);
+}
+
+// One of the equations of a node whose edges lie on two lines, and none of a node whose edges do not.
+TEST(Domain, FindsEquationsThatDependOnOthers) {
+  const auto dependent = [](double kink) {
+    Domain d = block({0.0, 1.0, 2.0}, {0.0, 1.0});
+    d.soils = {{}};
+    d.x.back().x() += kink;  // the middle of the last cell
+    return lower_program(d, edges_of(d), Quantity::load).program.dependent.size();
+  };
+  EXPECT_EQ(dependent(0.0), 2u);
+  EXPECT_EQ(dependent(1e-3), 1u);
 }
 
 }  // namespace
