@@ -110,14 +110,14 @@ class LargeStrain final : public Element {
       const std::size_t h = p * (of_law + kOwn);
       store_gradient(m.total, out.h1 + h + of_law);
       PointIn<4> point;
-      point.sigma0 = m.ratio0 * Vector4::Map(in.sigma0 + 4 * p);
+      point.sigma0 = (1.0 + m.change0) * Vector4::Map(in.sigma0 + 4 * p);
       point.eps0 = Vector4::Map(in.eps0 + 4 * p);
       point.h0 = {in.h0 + h, of_law};
       point.context = in.contexts != nullptr ? in.contexts + p : nullptr;
       LogPoint answer;
       if (update_log_strain(law, *shear, m.step, point, {out.h1 + h, of_law}, answer) != Outcome::ok)
         return Outcome::cut_step;
-      Vector4::Map(out.sigma1 + 4 * p) = answer.tau / m.ratio;
+      Vector4::Map(out.sigma1 + 4 * p) = answer.tau / (1.0 + m.change);
       if (!total_strain(m.strained, out.eps1 + 4 * p)) return Outcome::cut_step;
       out.status[p] = answer.status;
       add_point(m, whole, answer, out.K != nullptr, sums);
@@ -132,28 +132,30 @@ class LargeStrain final : public Element {
   // Gradients of the shape functions where the element is.
   struct Moved {
     Nodes gx, gy, hoop;
-    double volume0 = 0.0, volume = 0.0;   // at the committed state and now
+    double volume = 0.0;                  // now
     double reference = 0.0;               // of what is free of stress
-    double ratio0 = 1.0, ratio = 1.0;     // volume over that, of the strain that the law sees
+    double change0 = 0.0, change = 0.0;   // volume over that less 1, of the strain that the law sees
     PlaneGradient step, total, strained;  // strained: as the law sees it
   };
   // Of the element, for strains with its mean change of volume.
   struct Dilatation {
-    double volume0 = 0.0, volume = 0.0, reference = 0.0;
+    double volume = 0.0, reference = 0.0;
+    double growth0 = 0.0, growth = 0.0;            // sums of reference times change0 and change
     Nodes bx = Nodes::Zero(), by = Nodes::Zero();  // sum of volume times (N,x + N/r), N,y
     double pressure = 0.0;                         // sum of reference times tr(tau)/3
 
-    // Scales the step and the whole deformation to the mean change of volume.
+    // Scales the step and the whole deformation to the mean change of volume.  Small changes keep their digits.
     void take_mean(Moved& m) const {
-      const double mean0 = volume0 / reference, mean = volume / reference;
-      const double scale = std::cbrt(mean / m.ratio), step = std::cbrt(mean / m.ratio * (m.ratio0 / mean0));
-      m.strained = scaled(m.total, scale);
-      m.step = scaled(m.step, step);
-      m.ratio0 = mean0;
-      m.ratio = mean;
+      const double mean0 = growth0 / reference, mean = growth / reference;
+      const double log0 = std::log1p(mean0) - std::log1p(m.change0),
+                   log = std::log1p(mean) - std::log1p(m.change);
+      m.strained = scaled(m.total, std::expm1(log / 3.0));
+      m.step = scaled(m.step, std::expm1((log - log0) / 3.0));
+      m.change0 = mean0;
+      m.change = mean;
     }
-    static PlaneGradient scaled(const PlaneGradient& g, double by) {
-      const double more = by - 1.0;
+    static PlaneGradient scaled(const PlaneGradient& g, double more) {
+      const double by = 1.0 + more;
       return {more + by * g.xx, by * g.xy, by * g.yx, more + by * g.yy, more + by * g.zz};
     }
   };
@@ -184,19 +186,19 @@ class LargeStrain final : public Element {
     m.step = {h(0, 0), h(0, 1), h(1, 0), h(1, 1), kRing ? dr / r0 : 0.0};
     const PlaneGradient last = gradient_from(history);
     m.total = m.strained = followed_by(last, m.step);
-    m.ratio0 = last.volume_ratio();
-    m.ratio = m.total.volume_ratio();
-    m.volume0 = at.w * det0 * Kinematics::measure(r0);
+    m.change0 = last.volume_change();
+    m.change = m.total.volume_change();
     m.volume = at.w * det * Kinematics::measure(r);
-    m.reference = m.volume0 / m.ratio0;
+    m.reference = at.w * det0 * Kinematics::measure(r0) / (1.0 + m.change0);
     if constexpr (kMean) {
-      whole.volume0 += m.volume0;
       whole.volume += m.volume;
       whole.reference += m.reference;
+      whole.growth0 += m.reference * m.change0;
+      whole.growth += m.reference * m.change;
       whole.bx += m.volume * (m.gx + m.hoop);
       whole.by += m.volume * m.gy;
     }
-    return m.ratio > 0.0;
+    return m.change > -1.0;
   }
 
   static bool total_strain(const PlaneGradient& total, double* eps) {

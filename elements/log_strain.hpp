@@ -11,8 +11,11 @@ namespace sage {
 struct PlaneGradient {
   double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0, zz = 0.0;
 
-  // det(1 + this)
-  double volume_ratio() const { return ((1.0 + xx) * (1.0 + yy) - xy * yx) * (1.0 + zz); }
+  // det(1 + this) - 1
+  double volume_change() const {
+    const double area = xx + yy + xx * yy - xy * yx;
+    return area + zz + area * zz;
+  }
 };
 
 // (1 + next)(1 + first) - 1: first one deformation, then the other.

@@ -8,6 +8,7 @@
 #include "sage/analysis/audit.hpp"
 #include "sage/analysis/dissipation.hpp"
 #include "sage/analysis/explain.hpp"
+#include "sage/analysis/fold.hpp"
 #include "sage/analysis/loads.hpp"
 #include "sage/analysis/pore_warnings.hpp"
 #include "sage/analysis/run_checkpoint.hpp"
@@ -228,10 +229,10 @@ void Analysis::Stages::end_stage() {
   EquilibriumAudit sums;
   {
     const Profile::Scope scope(run_.profile(), phase::kChecks);
-    sums = audit_equilibrium(model_, assembly, state_.external, path.force_start, state_.u);
+    sums = audit_equilibrium(model_, assembly, run_.solution(), path.force_start);
     run_.warn(stage_warnings(stage,
-                             {result_.motion, sums.out_of_balance, system_.digits(), path.path_error,
-                              path.loose_part, path.relaxed, control_.force_left()},
+                             {model_.large_strain ? 0.0 : result_.motion, sums.out_of_balance, system_.digits(),
+                              path.path_error, path.loose_part, path.relaxed, control_.force_left()},
                              assembly));
     run_.warn(PoreSteps::remarks(run_));
     run_.warn(gradient_warnings(model_, stage, system_.activity()));
@@ -256,11 +257,17 @@ void Analysis::Stages::fail(StepReport& report) {
     result_.code = Code("S501");
     result_.reason = explain_failure(model_, assembly, report, step);
   }
+  if (const std::string fold =
+          model_.large_strain ? fold_lines(model_, assembly, state_.u, state_.du) : std::string();
+      !fold.empty()) {
+    result_.code = Code("S555");
+    result_.reason.insert(result_.reason.find('\n') + 1, fold);
+  }
   result_.reason = with_code(result_.reason, *result_.code);
   if (settings_.trials != nullptr) settings_.trials->lost(state_.u + state_.du, dissipation(run_, state_.du));
   leave_step();
   report.motion = result_.motion;
-  run_.warn(motion_warnings(run_.stage(), result_.motion));
+  if (!model_.large_strain) run_.warn(motion_warnings(run_.stage(), result_.motion));
   system_.assembly().recover_states();
   observer_list_.tell([&](Observer& o) { o.on_failure(model_, report, result_.reason, solution()); });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/analysis/loads.hpp"
 #include "sage/analysis/path_error.hpp"
 #include "sage/analysis/shown_status.hpp"
 #include "sage/analysis/step_iteration.hpp"
@@ -64,6 +65,23 @@ void make_elastic(GroupData& data) {
       data.law);
 }
 
+// What was at this load factor stays.
+void take_followed_edges(GroupData& data, std::vector<FollowedEdge> edges, double t) {
+  const std::vector<FollowedEdge> last = std::exchange(data.followed, std::move(edges));
+  for (FollowedEdge& edge : data.followed) {
+    const auto old = std::ranges::find_if(last, [&](const FollowedEdge& other) {
+      return other.element == edge.element && other.end.edge == edge.end.edge;
+    });
+    const EdgeTraction none, &start = old == last.end() ? none : old->start,
+                             &end = old == last.end() ? none : old->end;
+    const auto start_of = [t](const Vector2& from, const Vector2& to, const Vector2& now_to) -> Vector2 {
+      return ((1.0 - t) * from + t * to - t * now_to) / (1.0 - t);
+    };
+    edge.start.normal = start_of(start.normal, end.normal, edge.end.normal);
+    edge.start.shear = start_of(start.shear, end.shear, edge.end.shear);
+  }
+}
+
 }  // namespace
 
 bool all_finite(const FieldSums& values) {
@@ -100,6 +118,8 @@ void Assembly::set_step_time(const StepTime& step_time) {
   if (step_time.stage == spread_stage_) return;
   spread_stage_ = step_time.stage;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (groups_[g].group->element->traits().large_strain)
+      groups_[g].followed = followed_edges(*model_, step_time.stage - 1, static_cast<int>(g));
     if (!groups_[g].sees_spread) continue;
     groups_[g].spread_start = spread_loads(*model_, step_time.stage - 2, g);
     groups_[g].spread_end = spread_loads(*model_, step_time.stage - 1, g);
@@ -108,6 +128,9 @@ void Assembly::set_step_time(const StepTime& step_time) {
 
 void Assembly::take_spread_loads(double load_factor) {
   const double t = load_factor;
+  for (std::size_t g = 0; g < groups_.size() && spread_stage_ > 0; ++g)
+    if (groups_[g].group->element->traits().large_strain)
+      take_followed_edges(groups_[g], followed_edges(*model_, spread_stage_ - 1, static_cast<int>(g)), t);
   for (std::size_t g = 0; g < groups_.size() && spread_stage_ > 0; ++g) {
     if (!groups_[g].sees_spread) continue;
     std::vector<double>&start = groups_[g].spread_start, &end = groups_[g].spread_end;
@@ -121,8 +144,8 @@ void Assembly::take_spread_loads(double load_factor) {
   }
 }
 
-bool Assembly::sees_unknowns() const {
-  return std::ranges::any_of(groups_,
+bool sees_unknowns(const Assembly& assembly) {
+  return std::ranges::any_of(assembly.groups(),
                              [](const GroupData& data) { return data.group->element->traits().sees_unknowns; });
 }
 
@@ -213,6 +236,7 @@ Outcome Assembly::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
   ++(tangent != nullptr ? work_->assemblies : work_->residuals);
   FieldSums sums{};
   const auto elements = [&] {
+    element_.begin_pass();
     forces_.setZero(dof_map_.dofs());
     for (GroupData& data : groups_)
       if (data.active && evaluate_group(data, du, tangent, sums) == Outcome::cut_step) return Outcome::cut_step;

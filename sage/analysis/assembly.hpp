@@ -73,9 +73,7 @@ class Assembly {
   }
 
   const DofMap& dof_map() const { return dof_map_; }
-  // Some element sees the committed unknowns.
-  bool sees_unknowns() const;
-  // Those unknowns; they must stay where they are.
+  // Committed unknowns, for elements that see them; they must stay where they are.
   void set_committed(const Eigen::VectorXd& u) { element_.set_committed(&u); }
 
   int equations() const { return equations_.count(); }
@@ -124,7 +122,10 @@ class Assembly {
   // The same for structures alone.
   virtual void recover_structures() {}
 
-  const Eigen::VectorXd& internal_force() const { return internal_; }  // every dof
+  // Every dof; less what the motion adds to loads on edges.
+  const Eigen::VectorXd& internal_force() const { return internal_; }
+  // That addition, of the last pass; size 0 where no load follows the motion.
+  const Eigen::VectorXd& load_change() const { return element_.load_change(); }
   // sqrt(sum over elements of |f_e|^2), of a field of unknowns: a scale that vanishes only in a stress-free mesh.
   double force_scale(int field) const { return force_scale_[static_cast<std::size_t>(field)]; }
 
@@ -175,6 +176,8 @@ std::unique_ptr<Assembly> make_assembly(const Model& model, const Scene& scene, 
 FieldSums scales_of(const FieldSums& a, const FieldSums& b);
 bool all_finite(const FieldSums& values);
 
+// Some element sees the committed unknowns.
+bool sees_unknowns(const Assembly& assembly);
 // Water flows in the step in hand: internal forces change with the time alone.
 bool water_flows(const Assembly& assembly);
 // K depends on nothing but the size of the step.

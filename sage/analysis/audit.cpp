@@ -28,11 +28,10 @@ double rounding_of(const Assembly& assembly, int field, const Eigen::VectorXd& u
 
 }  // namespace
 
-EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
-                                   const Eigen::VectorXd& external, const Eigen::VectorXd& force_start,
-                                   const Eigen::VectorXd& u) {
+EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly, const Solution& now,
+                                   const Eigen::VectorXd& force_start) {
   EquilibriumAudit audit;
-  const Eigen::VectorXd& f = assembly.internal_force();
+  const Eigen::VectorXd &f = *now.internal, &external = *now.external, &u = *now.u;
   double moment_scale = 0.0, extent = 0.0, scale[2] = {0, 0};
   const DofMap& map = assembly.dof_map();
   audit.fields.resize(static_cast<std::size_t>(map.fields()) - 1);
@@ -55,7 +54,9 @@ EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
     const double force = external[dof] + reaction;
     audit.applied[c] += external[dof];
     audit.reactions[c] += reaction;
-    const double arm = c == 0 ? -model.mesh.x(1, node) : model.mesh.x(0, node);
+    // Large strain is in balance in the place that it has moved to.
+    const double moved = model.large_strain ? u[DofMap::displacement(node, 1 - c)] : 0.0;
+    const double place = model.mesh.x(1 - c, node) + moved, arm = c == 0 ? -place : place;
     audit.moment += force * arm;
     scale[c] += size;
     moment_scale += size * std::abs(arm);

@@ -25,6 +25,9 @@ ElementWork::ElementWork(const Model& model, bool keep_geometry)
   du_.resize(dofs);
   u0_.resize(dofs);
   spread_.resize(2 * dofs);
+  if (model.large_strain &&
+      std::ranges::any_of(model.stages, [](const Stage& s) { return !s.pressures.empty(); }))
+    load_change_.setZero(DofMap(model).dofs());
 }
 
 void ElementWork::stop_if_asked_at(int element) const {
@@ -95,6 +98,8 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
     in.spread0 =
         spread_of(data, element, step_time_.load_factor - step_time_.share, spread_.data() + data.dofs());
   }
+  if (!data.followed.empty()) in.edges = edges_of(data, element);
+  if (!in.edges.empty()) load_.resize(data.dofs());
   ElementOut out;
   out.K = K;
   out.f = f_.data();
@@ -102,7 +107,22 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   out.eps1 = data.constant ? eps_.data() : data.state.trial.eps.data() + at;
   out.h1 = data.state.trial.h.data() + e * points * history;
   out.status = data.state.trial.status.data() + e * points;
-  return data.group->element->evaluate(in, out);
+  if (in.edges.empty()) return data.group->element->evaluate(in, out);
+  out.load = load_.data();
+  const Outcome outcome = data.group->element->evaluate(in, out);
+  if (outcome == Outcome::ok) dofs.add(load_.data(), load_change_);
+  return outcome;
+}
+
+// At the load factor of the step's end.
+std::span<const EdgeTraction> ElementWork::edges_of(const GroupData& data, int element) {
+  const double t = step_time_.load_factor;
+  edges_.clear();
+  for (auto at = std::ranges::lower_bound(data.followed, element, {}, &FollowedEdge::element);
+       at != data.followed.end() && at->element == element; ++at)
+    edges_.push_back({at->end.edge, (1.0 - t) * at->start.normal + t * at->end.normal,
+                      (1.0 - t) * at->start.shear + t * at->end.shear});
+  return edges_;
 }
 
 // At a load factor of the stage.

@@ -31,6 +31,10 @@ class ElementWork {
   // Internal forces at committed state + du (nullptr: none) into f(), K where it is not nullptr.  Stress and
   // strain of constant groups go into sigma() and eps(), all other states into the trial side.
   Outcome evaluate(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
+  // Before each pass over the elements.
+  void begin_pass() { load_change_.setZero(); }
+  // What the motion adds to loads on edges, every dof, of the pass so far; size 0 where none follows.
+  const Eigen::VectorXd& load_change() const { return load_change_; }
   const Model& model() const { return *model_; }
   double* du() { return du_.data(); }
   double* K() { return K_.data(); }
@@ -41,6 +45,7 @@ class ElementWork {
  private:
   const double* committed_of(const ElementDofs& dofs);
   static const double* spread_of(const GroupData& data, int element, double load_factor, double* to);
+  std::span<const EdgeTraction> edges_of(const GroupData& data, int element);
   const double* geometry_of(GroupData& data, int element);
   const PointContext* contexts_of(const GroupData& data, int element);
 
@@ -52,6 +57,10 @@ class ElementWork {
   std::vector<double> no_stress_;  // zeros, of one element
   Eigen::Matrix2Xd x_;
   StepTime step_time_;
+  // Under large strain: loads on the edges of one element, what its motion adds to them, and the sum of that.
+  std::vector<EdgeTraction> edges_;
+  std::vector<double> load_;
+  Eigen::VectorXd load_change_;
   std::vector<PointContext> contexts_;  // of one element; none where no law wants them
 };
 

@@ -534,7 +534,8 @@ class Estimation {
     ErrorEstimate result;
     result.element.resize(groups_.size());
     for (const GroupData& data : groups_)
-      if (const SolidLaw* law = solid_law(data)) result.energy = result.energy && law->traits().linear;
+      if (const SolidLaw* law = solid_law(data))
+        result.energy = result.energy && law->traits().linear && !model_.large_strain;
     take_stress(start, result.energy);
     make_fits();
     measure();

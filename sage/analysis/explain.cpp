@@ -92,7 +92,8 @@ bool moves(const Stage& stage) {
 // Laws of one stiffness: nothing collapses, and what fails is arithmetic or support.
 bool is_linear(const Assembly& assembly) {
   return std::ranges::all_of(assembly.groups(), [](const GroupData& data) {
-    return !data.active || std::visit([](const auto* law) { return has_constant_stiffness(*law); }, data.law);
+    return !data.active || (!data.group->element->traits().large_strain &&
+                            std::visit([](const auto* law) { return has_constant_stiffness(*law); }, data.law));
   });
 }
 

@@ -17,6 +17,12 @@ inline bool sees_spread_loads(const Group& group, const LawRef& law) {
          !std::visit([](const auto* held) { return held->traits().linear; }, law);
 }
 
+// A load on an edge under large strain: its sums up to both ends of the stage.
+struct FollowedEdge {
+  int element = 0;
+  EdgeTraction start, end;
+};
+
 struct GroupData {
   explicit GroupData(const Group& its_group)
       : group(&its_group), dofs_(static_cast<std::size_t>(its_group.element->traits().dofs)) {}
@@ -55,6 +61,7 @@ struct GroupData {
   // after element; empty = none.
   bool sees_spread = false;
   std::vector<double> spread_start, spread_end;
+  std::vector<FollowedEdge> followed;  // of large strain, by element
 
   bool four_abreast() const { return four_law != nullptr; }
   bool keeps_matrices() const { return !matrix.empty(); }

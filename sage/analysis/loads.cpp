@@ -203,6 +203,33 @@ Eigen::VectorXd external_force(const Model& model, int last) {
   return force + weight_of(model, activity.group, gravity);
 }
 
+std::vector<FollowedEdge> followed_edges(const Model& model, int stage, int group) {
+  std::vector<FollowedEdge> edges;
+  Activity activity(model);
+  for (int s = 0; s <= stage; ++s) {
+    const Stage& now = model.stages[static_cast<std::size_t>(s)];
+    activity.enter(now);
+    if (!activity.group[static_cast<std::size_t>(group)]) continue;
+    for (const EdgeLoad& load : now.pressures) {
+      if (load.group != group) continue;
+      auto at = std::ranges::find_if(edges, [&](const FollowedEdge& edge) {
+        return edge.element == load.element && edge.end.edge == load.edge;
+      });
+      if (at == edges.end()) {
+        const EdgeTraction none{.edge = load.edge};
+        at = edges.insert(edges.end(), FollowedEdge{load.element, none, none});
+      }
+      for (EdgeTraction* sum : {s < stage ? &at->start : nullptr, &at->end}) {
+        if (sum == nullptr) continue;
+        sum->normal += load.normal;
+        sum->shear += load.shear;
+      }
+    }
+  }
+  std::ranges::stable_sort(edges, {}, &FollowedEdge::element);
+  return edges;
+}
+
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
   const Stage& now = model.stages[static_cast<std::size_t>(stage)];

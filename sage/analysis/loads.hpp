@@ -13,6 +13,10 @@ namespace sage {
 // stage, nor, once it was removed, on what is activated there later.  One entry per dof, axes (x, y).
 Eigen::VectorXd external_force(const Model& model, int last);
 
+// Of a group whose loads on edges follow its motion (ElementTraits::large_strain): the sums of these loads, by element.
+// stage: 0-based.
+std::vector<FollowedEdge> followed_edges(const Model& model, int stage, int group);
+
 // Weight of groups (one flag each) under gravity, in multiples of the materials' unit weight.  One entry per dof.
 Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity);
 

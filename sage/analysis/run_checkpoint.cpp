@@ -47,7 +47,7 @@ void evaluate_again(const RunParts& run, const RunPlace& place, bool factorised)
     system.assembly().set_step_time(run.step_time(place, reached, run.state.path.last_size));
   }
   const Eigen::VectorXd end = run.state.u;
-  if (within && system.assembly().sees_unknowns()) run.state.u = run.state.u_before;
+  if (within && sees_unknowns(system.assembly())) run.state.u = run.state.u_before;
   if (system.assembly().evaluate(run.state.du, &system.tangent()) == Outcome::cut_step) refuse();
   run.state.u = end;
   if (within) system.assembly().commit_again(run.state.du);

@@ -7,11 +7,16 @@
 
 namespace sage {
 
+// Loads and forces of the moved edges.
 Solution RunParts::solution() const {
-  return {&state.u,           &assembly().internal_force(),
-          &state.external,    &assembly(),
-          &system.activity(), {},
-          state.place.stage,  state.reached};
+  const Eigen::VectorXd *internal = &assembly().internal_force(), *external = &state.external;
+  if (assembly().load_change().size() > 0) {
+    state.moved_internal = *internal + assembly().load_change();
+    state.moved_external = *external + assembly().load_change();
+    internal = &state.moved_internal;
+    external = &state.moved_external;
+  }
+  return {&state.u, internal, external, &assembly(), &system.activity(), {}, state.place.stage, state.reached};
 }
 
 void RunParts::warn(const std::vector<Diagnostic>& list) const {

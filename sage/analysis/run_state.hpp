@@ -76,6 +76,8 @@ struct RunState {
   Eigen::VectorXd du;           // the step in hand or just taken
   Eigen::VectorXd u_before;     // before that step, where elements see unknowns
   Eigen::VectorXd target;       // loads at the end of that step
+  // Internal forces and loads as outputs see them, where loads follow the motion.
+  Eigen::VectorXd moved_internal, moved_external;
   StagePath path;
   RunPlace place;        // the increment in hand
   double reached = 0.0;  // load factor of the stage in hand at the committed state

@@ -18,6 +18,14 @@ bool is_symmetric(const LawRef& law) {
   return std::visit([](const auto* held) { return held->traits().symmetric; }, law);
 }
 
+// Loads that follow an edge have a stiffness of their own, which is symmetric on closed edges alone.
+bool has_edge_loads(const Model& model, const Group& group) {
+  const auto g = static_cast<int>(&group - model.groups.data());
+  return std::ranges::any_of(model.stages, [g](const Stage& stage) {
+    return std::ranges::find(stage.pressures, g, &EdgeLoad::group) != stage.pressures.end();
+  });
+}
+
 }  // namespace
 
 Scene analyse_scene(const Model& model) {
@@ -39,8 +47,8 @@ Scene analyse_scene(const Model& model) {
                               ": the law of the second material must not depend on place, time or history");
     const bool linear = traits.linear && traits.history.empty() && has_constant_stiffness(law) &&
                         (traits.second_law_size == 0 || has_constant_stiffness(second));
-    const bool symmetric =
-        traits.symmetric && is_symmetric(law) && (traits.second_law_size == 0 || is_symmetric(second));
+    const bool symmetric = traits.symmetric && !(traits.large_strain && has_edge_loads(model, group)) &&
+                           is_symmetric(law) && (traits.second_law_size == 0 || is_symmetric(second));
     scene.group_linear.push_back(linear ? 1 : 0);
     scene.linear = scene.linear && linear;
     scene.symmetric = scene.symmetric && symmetric;

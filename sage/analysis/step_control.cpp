@@ -190,7 +190,7 @@ void StepControl::move_to(double load_factor) {
   RunState& state = run_.state;
   Assembly& assembly = run_.assembly();
   assembly.commit(state.du);
-  if (assembly.sees_unknowns()) state.u_before = state.u;
+  if (sees_unknowns(assembly)) state.u_before = state.u;
   state.u += state.du;
   state.reached = load_factor;
   state.external = (1.0 - load_factor) * state.path.external_start + load_factor * state.path.force_end;

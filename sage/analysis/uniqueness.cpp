@@ -86,9 +86,10 @@ void visit_tangents(const Assembly& assembly, const GroupData& data, StepKind st
   }
 }
 
+// Under large strain the increment of a law is not the difference of strains.
 bool is_active_solid(const GroupData& data) {
   const auto* law = std::get_if<const SolidLaw*>(&data.law);
-  return data.active && law != nullptr;
+  return data.active && law != nullptr && !data.group->element->traits().large_strain;
 }
 
 }  // namespace

@@ -92,6 +92,11 @@ void build_control(Builder& b) {
     b.error("S213", card.where("solver"),
             "solver " + std::to_string(model.solver) + " is unknown; 0 automatic, " +
                 b.catalogue.solvers.known() + plugin_hint(model.solver));
+  const int strain = card.integer("strain", 0);
+  if (strain != 0 && strain != 1)
+    b.error("S210", card.where("strain"),
+            "size of strains " + std::to_string(strain) + " is unknown; 0 small, 1 large");
+  model.large_strain = strain == 1;
   build_plugins(b);
 }
 
@@ -334,6 +339,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   if (b.problems.errors() == 0) builder::take_stored_heads(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   builder::build_laws(b);
+  if (b.model.large_strain) builder::take_large_strain(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   builder::check_model(b);
   builder::check_stages(b);

@@ -129,6 +129,9 @@ bool read_law_card(Builder& b, const CardView& card, bool in_stage, InitialStres
                    const std::vector<InitialStress>& before);
 // Laws that differ by point or stage, once the mesh is whole.
 void build_laws(Builder& b);
+// Makes every group one of elements under large strain.  An error for each that has none, and for what decks have that large
+// strain can't be with.
+void take_large_strain(Builder& b);
 // Pore pressures and undrained groups.
 void build_water(Builder& b);
 // Pressures of cards that name the result file of an earlier run, at the nodes of the whole mesh.

@@ -110,7 +110,9 @@ void InputCards::add_head() {
   add("units", fields);
   const double solver =
       input_.solver.empty() ? 0.0 : code_of("S213", catalogue_.solvers, input_.solver, "the solver");
-  add("control", {{"geometry", input_.geometry == Geometry::axisymmetric ? 2.0 : 1.0}, {"solver", solver}});
+  add("control", {{"geometry", input_.geometry == Geometry::axisymmetric ? 2.0 : 1.0},
+                  {"solver", solver},
+                  {"strain", input_.large_strain ? 1.0 : 0.0}});
 }
 
 void InputCards::add_material(const MaterialInput& material, int number) {

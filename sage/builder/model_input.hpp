@@ -95,6 +95,7 @@ struct ModelInput {
   Geometry geometry = Geometry::plane_strain;
   UnitSystem units = {};
   std::string solver = {};  // name in the catalogue; empty: automatic
+  bool large_strain = false;
   std::vector<Vector2> nodes = {};
   std::vector<MaterialInput> materials = {};
   std::vector<GroupInput> groups = {};

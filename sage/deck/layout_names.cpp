@@ -35,7 +35,7 @@ bool is_node_name(std::string_view name) {
 constexpr KnownCard kKnown[] = {
     {"sage1", "title", false, "", "title", ""},
     {"sage1", "units", false, "", "length force stress atmospheric_pressure water_unit_weight", ""},
-    {"sage1", "control", true, "", "geometry solver total_nodes total_elements middle_nodes", ""},
+    {"sage1", "control", true, "", "geometry solver total_nodes total_elements middle_nodes strain", ""},
     {"sage1", "node", true, "number x y", "step system ratio", ""},
     {"sage1", "fill", false, "first columns rows row_step", "column_step column_ratio row_ratio", ""},
     {"sage1", "material", true, "number law", "unit_weight name k0", ""},

@@ -48,6 +48,9 @@ class InpWriter {
   // What is no part of the problem there.
   void the_rest() {
     if (!model_.water.empty()) warning(std::to_string(model_.water.size()) + " water card(s) left out");
+    if (model_.large_strain)
+      warning(
+          "large strain is left out: the steps are written without NLGEOM, whose elastic law is another one");
     if (!model_.reports.empty()) warning(std::to_string(model_.reports.size()) + " report(s) left out");
     if (!control_.empty())
       diagnostics_.add({Severity::note,

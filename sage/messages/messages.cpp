@@ -1037,6 +1037,31 @@ constexpr MessageEntry kMessages[] = {
      "Nothing is to be done. More increments, and a second mesh, show how far the answer depends on the path. "
      "A "
      "dilation angle nearer to friction makes it unique."},
+    {"S551", "an element for small strain alone",
+     "Large strain computes every group in the place that it has moved to. Solids of few nodes without "
+     "enhanced strain can do that. Interfaces, structures, elements of flow and coupled elements cannot.",
+     "Take one of the elements or formulations that the message lists, or small strain."},
+    {"S552", "a law for small strain alone",
+     "Large strain gives a law Kirchhoff stress and increments of the elastic logarithmic strain. The law must "
+     "be isotropic, and its stress must have an elastic strain. Laws that follow increments of the total "
+     "strain, and laws that change by point or stage, have none.",
+     "Take an isotropic elastic or elastic-plastic law, or small strain."},
+    {"S553", "a part of the model for small strain alone",
+     "Pore water, stages that set displacements to zero and searches for a factor of safety assume that the "
+     "model keeps the shape of its mesh.",
+     "Leave the part out, or take small strain."},
+    {"S554", "which stress and strain large strain prints",
+     "Stresses are Cauchy stresses: force over present area. Strains are logarithmic (Hencky) strains of the "
+     "left stretch, since the group was activated. Edge pressures stay normal to the moved edge and act on its "
+     "present length. Point forces and weights keep their direction and their size.",
+     "Nothing is to be done. Forces over the first area are nominal stresses: reports of nodes give forces."},
+    {"S555", "an element turns inside out",
+     "The step that failed moves a point or a corner of the element through one of its sides. At large strain "
+     "that is a common end: beside a rough platen the free side rolls onto the platen, and the corner folds. "
+     "The message names the element and the corner with the least share of its first area.",
+     "Smaller increments help if the steps were large. A mesh with the corner cut or rounded, or with larger "
+     "elements at the corner, goes further. A fold that is real needs contact, which the model does not have."},
+
     {"S570", "bounds need plane strain",
      "sagefe bounds solves the programs of limit analysis in plane strain. Its upper field has no hoop strain "
      "and its "

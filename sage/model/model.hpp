@@ -269,7 +269,9 @@ struct Model {
   std::string file, title;
   Geometry geometry = Geometry::plane_strain;
   UnitSystem units;
-  int solver = 0;     // catalogue code, 0 = automatic
+  int solver = 0;  // catalogue code, 0 = automatic
+  // Strains of any size: all elements are those of ElementEntry::make_large.
+  bool large_strain = false;
   FieldTable fields;  // what results have, besides the history of the laws
   Mesh mesh;
   std::vector<Material> materials;

@@ -26,6 +26,7 @@ const std::vector<Change>& changes() {
   static const std::vector<Change> list{
       {"control", "geometry", Want::code, {}, {{1, "plane strain"}, {2, "axisymmetric"}}},
       {"control", "solver", Want::solver},
+      {"control", "strain", Want::code, {}, {{0, "small"}, {1, "large"}}},
       {"node", "system", Want::code, {}, {{0, "cartesian"}, {1, "polar"}}},
       {"material", "law", Want::law},
       {"group", "element", Want::element},

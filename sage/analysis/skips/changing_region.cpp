@@ -140,6 +140,7 @@ Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::Vector
 }
 
 Outcome ChangingRegion::evaluate(const Eigen::VectorXd& du, Tangent* tangent) {
+  element_->begin_pass();
   forces_.setZero();
   sums_.fill(0.0);
   for (GroupData& data : *groups_) {

@@ -155,7 +155,8 @@ std::string DeckWriter::text() const {
   text += integers({geometry, 0, size_of(nodes), size_of(fills), size_of(materials), size_of(groups),
                     size_of(elements), size_of(fixities), size_of(initials), static_cast<int>(stages.size()),
                     size_of(reports)});
-  if (!waters.empty()) text += integers({0, 0, size_of(waters)});
+  if (!waters.empty() || large_strain) text += integers({0, 0, size_of(waters)});
+  if (large_strain) text += integers({1});
   text += "\n";
   for (const auto* cards : {&nodes, &fills, &materials, &groups, &elements, &fixities, &initials})
     append(text, *cards);

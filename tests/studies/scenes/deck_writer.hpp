@@ -34,6 +34,7 @@ struct DeckWriter {
   explicit DeckWriter(int geometry_code) : geometry(geometry_code) {}
 
   int geometry = 1;  // 1 plane strain, 2 axisymmetric
+  bool large_strain = false;
   double atmospheric_pressure = 101.325, water_unit_weight = 9.81;
   std::string title = "verification";
   std::vector<std::string> nodes, fills, materials, groups, elements, fixities, initials, reports, waters;

@@ -1,0 +1,441 @@
+// Whole models under large strain: Hencky bar, thick cylinder, pinned cylinders, groups that come and go in the deformed
+// state, loads that follow, restart, and what large strain rejects.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "elements/register_elements.hpp"
+#include "materials/register_materials.hpp"
+#include "sage/builder/model_input.hpp"
+#include "sage/exchange/convert.hpp"
+#include "sage/model/fingerprint.hpp"
+#include "solvers/choose_solver.hpp"
+#include "solvers/register_solvers.hpp"
+#include "tests/studies/scenes/scenes.hpp"
+
+namespace sage::test {
+namespace {
+
+using namespace scenes;
+
+const Catalogue& everything() {
+  static const Catalogue catalogue = [] {
+    Catalogue all;
+    register_elements(all);
+    register_materials(all);
+    register_solvers(all);
+    return all;
+  }();
+  return catalogue;
+}
+const Workbench& bench() {
+  static const Workbench workbench(
+      everything(), [](int equations, bool symmetric) { return choose_solver(equations, symmetric); });
+  return workbench;
+}
+
+WholeRun run(const ModelInput& input, const RunSettings& settings = {}) {
+  return bench().run(build_model(input, everything()), settings);
+}
+
+// Elements on a grid x columns, y rows; middle nodes of quad8 halfway.
+struct Grid {
+  std::vector<double> x, y;
+  std::string element = "quad8";
+  ModelInput input{.units = {"m", "kN", "kPa", 101.325, 9.81}, .large_strain = true};
+
+  int step() const { return element == "quad8" ? 2 : 1; }
+  int columns() const { return step() * static_cast<int>(x.size() - 1); }
+  int rows() const { return step() * static_cast<int>(y.size() - 1); }
+  static double at(const std::vector<double>& list, int i, int step) {
+    const auto lower = static_cast<std::size_t>(i / step);
+    return i % step == 0 ? list[lower] : 0.5 * (list[lower] + list[lower + 1]);
+  }
+  std::map<std::pair<int, int>, int> numbers = {};
+
+  void make_nodes() {
+    for (int j = 0; j <= rows(); ++j)
+      for (int i = 0; i <= columns(); ++i) {
+        if (step() == 2 && i % 2 == 1 && j % 2 == 1) continue;
+        input.nodes.emplace_back(at(x, i, step()), at(y, j, step()));
+        numbers[{i, j}] = static_cast<int>(input.nodes.size());
+      }
+  }
+  std::vector<int> nodes_of(int column, int row) const {
+    const int s = step(), i = s * column, j = s * row;
+    std::vector<int> nodes{numbers.at({i, j}), numbers.at({i + s, j}), numbers.at({i + s, j + s}),
+                           numbers.at({i, j + s})};
+    if (s == 2)
+      for (const auto& [a, b] : {std::pair{i + 1, j}, {i + 2, j + 1}, {i + 1, j + 2}, {i, j + 1}})
+        nodes.push_back(numbers.at({a, b}));
+    return nodes;
+  }
+  // Rows first ... last - 1.
+  void add_group(int first, int last, const std::string& formulation, int material = 1) {
+    GroupInput group{.element = element, .material = material, .elements = {}, .formulation = formulation};
+    for (int row = first; row < last; ++row)
+      for (int column = 0; column + 1 < static_cast<int>(x.size()); ++column)
+        group.elements.push_back(nodes_of(column, row));
+    input.groups.push_back(group);
+  }
+  std::vector<int> row(int j) const {
+    return line([j](int, int b) { return b == j; });
+  }
+  std::vector<int> column(int i) const {
+    return line([i](int a, int) { return a == i; });
+  }
+  template <class Choose>
+  std::vector<int> line(const Choose& choose) const {
+    std::vector<int> list;
+    for (const auto& [at, number] : numbers)
+      if (choose(at.first, at.second)) list.push_back(number);
+    return list;
+  }
+};
+
+MaterialInput elastic(double E, double nu) {
+  return {.law = "linear_elastic", .parameters = {{"youngs_modulus", E}, {"poissons_ratio", nu}}};
+}
+
+Grid cylinder(const std::string& element, const std::string& formulation, const MaterialInput& law) {
+  Grid grid{.x = {0.0, 0.4, 1.0}, .y = {0.0, 0.8, 2.0}, .element = element};
+  grid.input.geometry = Geometry::axisymmetric;
+  grid.input.materials = {law};
+  grid.make_nodes();
+  grid.add_group(0, 2, formulation);
+  grid.input.supports = {{.nodes = grid.row(0), .y = FixityCode::fixed},
+                         {.nodes = grid.column(0), .x = FixityCode::fixed}};
+  return grid;
+}
+
+SupportInput pushed(const std::vector<int>& nodes, double y) {
+  return {.nodes = nodes, .y = FixityCode::fixed, .y_value = y};
+}
+
+// F/(A0 E) = -ln(l)/l of a bar of Hencky's law whose side is free.
+TEST(LargeStrainModels, ABarHasHenckysForce) {
+  for (const auto& [element, formulation] :
+       {std::pair{"quad8", "reduced"}, {"quad8", "full"}, {"quad4", "b-bar"}}) {
+    Grid grid = cylinder(element, formulation, elastic(1.0, 0.3));
+    StageInput stage{.increments = 3, .tolerance = 1e-12};
+    stage.supports = {pushed(grid.row(grid.rows()), -0.6)};
+    grid.input.stages = {stage};
+    const WholeRun whole = run(grid.input);
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double l = 1.0 - 0.1 * static_cast<double>(i + 1);
+      const double force = -whole.reaction(whole.increments[i], grid.row(grid.rows()), 1) / kPi;
+      EXPECT_NEAR(force, -std::log(l) / l, 1e-8 * force) << element << " " << formulation << " " << l;
+    }
+    EXPECT_FALSE(whole.warns("small strains")) << element;
+  }
+}
+
+// The force of the same sand (c = 0, phi = 30) in a cell whose pressure follows its side: three times the pressure on the
+// present area, which grows with the dilation of the flow (psi = 30: as the law's plastic strain says; here psi = 0).
+TEST(LargeStrainModels, SandInACellThatFollowsItsSide) {
+  for (const char* law : {"mohr_coulomb", "drucker_prager"}) {
+    Grid grid = cylinder("quad8", "reduced",
+                         {.law = law,
+                          .parameters = {{"youngs_modulus", 5000.0},
+                                         {"poissons_ratio", 0.3},
+                                         {"cohesion", 0.0},
+                                         {"friction_angle", 30.0}}});
+    grid.input.initials = {{1, InitialKind::uniform, {100.0, 100.0, 100.0, 0.0}}};
+    StageInput cell{.tolerance = 1e-11}, press{.increments = 8, .tolerance = 1e-11};
+    cell.pressures = {{.elements = {2, 4}, .edge = 2, .normal1 = 100.0, .normal2 = 100.0},
+                      {.elements = {3, 4}, .edge = 3, .normal1 = 100.0, .normal2 = 100.0}};
+    press.supports = {pushed(grid.row(grid.rows()), -0.4)};
+    grid.input.stages = {cell, press};
+    const WholeRun whole = run(grid.input);
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    EXPECT_LT(whole.increments.front().u.cwiseAbs().maxCoeff(), 1e-10) << law;
+    for (Eigen::Index p = 0; p < whole.stress[0].cols(); ++p) {
+      EXPECT_NEAR(whole.stress[0](1, p), -300.0, 1e-6 * 300.0) << law;
+      EXPECT_NEAR(whole.stress[0](0, p), -100.0, 1e-6 * 300.0) << law;
+    }
+    EXPECT_LT(whole.out_of_balance, 1e-9) << law;
+  }
+}
+
+// A pressure on all sides of a ball-like body, in two stages: p = -3 K ln(l) / l^3.
+TEST(LargeStrainModels, AFollowingPressureHasTheClosedFormOfEvenCompression) {
+  const double K = 1000.0 / (3.0 * (1.0 - 0.6)), l = 0.8, p = -3.0 * K * std::log(l) / (l * l * l);
+  for (const auto& [element, formulation] : {std::pair{"quad8", "full"}, {"quad4", "b-bar"}}) {
+    Grid grid = cylinder(element, formulation, elastic(1000.0, 0.3));
+    for (int s = 0; s < 2; ++s) {
+      StageInput stage{.increments = 4, .tolerance = 1e-12};
+      stage.pressures = {{.elements = {2, 4}, .edge = 2, .normal1 = 0.5 * p, .normal2 = 0.5 * p},
+                         {.elements = {3, 4}, .edge = 3, .normal1 = 0.5 * p, .normal2 = 0.5 * p}};
+      grid.input.stages.push_back(stage);
+    }
+    const WholeRun whole = run(grid.input);
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    EXPECT_NEAR(whole.u(static_cast<int>(grid.input.nodes.size())).y(), 2.0 * (l - 1.0), 1e-9) << element;
+    EXPECT_NEAR(whole.u(static_cast<int>(grid.input.nodes.size())).x(), l - 1.0, 1e-9) << element;
+    EXPECT_LT(whole.out_of_balance, 1e-9) << element;
+    // What the supports at the bottom bear is the pressure on the present area.
+    EXPECT_NEAR(whole.reaction(whole.last(), grid.row(0), 1), p * kPi * l * l, 1e-8 * p) << element;
+  }
+}
+
+// A thick cylinder b/a = 2, incompressible in plane strain, held at the inner wall at r = lambda a.  Values of p/G by
+// quadrature of the closed form for Hencky's law: p = int (sigma_t - sigma_r)/r dr.
+double wall_pressure(double lambda, int elements) {
+  Grid grid{.x = {}, .y = {0.0, 0.1}};
+  for (int i = 0; i <= elements; ++i) grid.x.push_back(1.0 + static_cast<double>(i) / elements);
+  grid.input.geometry = Geometry::axisymmetric;
+  grid.input.materials = {
+      {.law = "linear_elastic_kg", .parameters = {{"bulk_modulus", 2e7}, {"shear_modulus", 1.0}}}};
+  grid.make_nodes();
+  grid.add_group(0, 1, "reduced");
+  grid.input.supports = {{.nodes = grid.line([](int, int) { return true; }), .y = FixityCode::fixed}};
+  StageInput stage{.increments = 5, .tolerance = 1e-10};
+  stage.supports = {{.nodes = grid.column(0), .x = FixityCode::fixed, .x_value = lambda - 1.0}};
+  grid.input.stages = {stage};
+  const WholeRun whole = run(grid.input);
+  EXPECT_TRUE(whole.completed()) << whole.failure;
+  return whole.reaction(whole.last(), grid.column(0), 0) / (2.0 * kPi * lambda * 0.1);
+}
+
+TEST(LargeStrainModels, AThickCylinderConvergesToTheClosedForm) {
+  for (const auto& [lambda, exact] : {std::pair{1.1, .131211200057}, {1.5, .40724019528}}) {
+    const double coarse = std::abs(wall_pressure(lambda, 4) / exact - 1.0);
+    const double fine = std::abs(wall_pressure(lambda, 8) / exact - 1.0);
+    EXPECT_LT(std::abs(wall_pressure(lambda, 16) / exact - 1.0), 1e-5) << lambda;
+    EXPECT_GT(std::log2(coarse / fine), 3.7) << lambda;  // 4 by theory
+  }
+}
+
+// Ratio to the homogeneous force of the same law, hp elements, good to 2e-6 (nu = .25).
+TEST(LargeStrainModels, PinnedCylindersHaveTheConvergedRatio) {
+  struct Case {
+    double slenderness, ratio[3];  // at 5, 10 and 15 %
+  };
+  for (const Case& c :
+       {Case{1.0, {1.0359693, 1.0351527, 1.0334903}}, Case{2.0, {1.0174627, 1.0170063, 1.0161213}}}) {
+    RestrainedCylinder specimen{.slenderness = c.slenderness, .nu = 0.25};
+    DeckWriter deck = specimen.between_rough_platens(0.15);
+    deck.large_strain = true;
+    deck.stages[0].increments = 3;
+    const WholeRun whole = bench().run(deck.text());
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double l = 1.0 - 0.05 * static_cast<double>(i + 1);
+      const double force = -whole.reaction(whole.increments[i], specimen.block().top(), 1) / kPi;
+      EXPECT_NEAR(force / (-std::log(l) / l), c.ratio[i], 2e-5) << c.slenderness << " " << l;
+    }
+  }
+}
+
+// Columns without lateral strain, M = E (1 - nu)/((1 + nu)(1 - 2 nu)): Cauchy stress M ln(l)/l.
+constexpr double kHigh = 1.0, kOedometer = 1000.0 * 0.7 / (1.3 * 0.4);
+double column_stress(double l) {
+  return kOedometer * std::log(l) / l;
+}
+
+Grid two_layers(const std::string& element, const std::string& formulation) {
+  Grid grid{.x = {0.0, 1.0}, .y = {0.0, kHigh, 2.0 * kHigh}, .element = element};
+  grid.input.materials = {elastic(1000.0, 0.3)};
+  grid.make_nodes();
+  grid.add_group(0, 1, formulation);
+  grid.add_group(1, 2, formulation);
+  grid.input.supports = {{.nodes = grid.row(0), .y = FixityCode::fixed},
+                         {.nodes = grid.line([](int, int) { return true; }), .x = FixityCode::fixed}};
+  const int middle = grid.step();
+  StageInput first{.increments = 2, .tolerance = 1e-12}, second = first, third = first;
+  first.supports = {pushed(grid.row(middle), -0.3)};
+  second.births = {2};
+  second.supports = {{.nodes = grid.row(middle), .y = FixityCode::released},
+                     pushed(grid.row(2 * middle), -0.2)};
+  third.deaths = {2};
+  grid.input.stages = {first, second, third};
+  return grid;
+}
+
+// The upper layer is free of stress where it is activated, 1.3 high; then both have one stress.  Without it the lower one
+// has its first height.
+TEST(LargeStrainModels, AGroupComesAndGoesInTheDeformedState) {
+  for (const auto& [element, formulation] : {std::pair{"quad8", "reduced"}, {"quad4", "full"}}) {
+    Grid grid = two_layers(element, formulation);
+    const WholeRun whole = run(grid.input);
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    double lower = 0.7, upper = 0.0;
+    double low = 0.5, high = 1.0;
+    for (int i = 0; i < 100; ++i) {  // bisection on the height of the lower layer
+      lower = 0.5 * (low + high);
+      upper = 1.8 - lower;
+      (column_stress(lower) < column_stress(upper / 1.3) ? low : high) = lower;
+    }
+    const int middle = grid.row(grid.step()).front(), dof = 2 * (middle - 1) + 1;
+    EXPECT_NEAR(whole.increments[1].u[dof], -0.3, 1e-12);
+    EXPECT_NEAR(whole.increments[3].u[dof], lower - 1.0, 1e-9) << element;
+    EXPECT_NEAR(whole.reaction(whole.increments[3], grid.row(0), 1), -column_stress(lower), 1e-7) << element;
+    EXPECT_NEAR(whole.increments[5].u[dof], 0.0, 1e-9) << element;
+  }
+}
+
+// A column under its own weight that starts with the stress of that weight stays.
+TEST(LargeStrainModels, GroundWithItsStressStays) {
+  Grid grid{.x = {0.0, 1.0, 3.0}, .y = {0.0, 1.0, 2.5}};
+  grid.input.materials = {elastic(1000.0, 0.3)};
+  grid.input.materials[0].unit_weight = 20.0;
+  grid.make_nodes();
+  grid.add_group(0, 2, "reduced");
+  grid.input.supports = {{.nodes = grid.row(0), .y = FixityCode::fixed},
+                         {.nodes = grid.column(0), .x = FixityCode::fixed},
+                         {.nodes = grid.column(grid.columns()), .x = FixityCode::fixed}};
+  grid.input.initials = {{1, InitialKind::geostatic, {2.5, 20.0, 0.4}}};
+  grid.input.stages = {{.gravity = {0.0, -1.0}}};
+  const WholeRun whole = run(grid.input);
+  ASSERT_TRUE(whole.completed()) << whole.failure;
+  EXPECT_LT(whole.largest_u(), 1e-12);
+}
+
+TEST(LargeStrainModels, ARunIsResumedFromAnyCheckpointBitForBit) {
+  Grid grid = two_layers("quad8", "reduced");
+  grid.input.stages[1].pressures = {{.elements = {2}, .edge = 2, .normal1 = 20.0, .normal2 = 20.0}};
+  std::vector<std::string> checkpoints;
+  RunSettings settings;
+  settings.checkpoint_due = [] { return true; };
+  settings.save_checkpoint = [&](const std::string& state) { checkpoints.push_back(state); };
+  const WholeRun whole = run(grid.input, settings);
+  ASSERT_TRUE(whole.completed()) << whole.failure;
+  ASSERT_EQ(checkpoints.size(), 5u);
+  for (const std::string& state : checkpoints) {
+    RunSettings again;
+    again.resume_from = state;
+    const WholeRun resumed = run(grid.input, again);
+    ASSERT_TRUE(resumed.completed()) << resumed.failure;
+    EXPECT_TRUE(resumed.last().u == whole.last().u);
+    EXPECT_TRUE(resumed.last().internal == whole.last().internal);
+    for (std::size_t g = 0; g < 2; ++g) EXPECT_TRUE(resumed.stress[g] == whole.stress[g]);
+  }
+}
+
+// Each residual at most the square of the one before, times a constant, near the end.
+TEST(LargeStrainModels, NewtonConvergesQuadratically) {
+  struct Residuals final : Observer {
+    std::vector<IterationRecord> last;
+    void on_increment(const Model&, const StepReport& report, const Solution&) override {
+      last = report.iterations;
+    }
+  };
+  for (const auto& [element, formulation] : {std::pair{"quad8", "reduced"}, {"quad4", "b-bar"}}) {
+    Grid grid = cylinder(element, formulation, elastic(1000.0, 0.3));
+    StageInput stage{.tolerance = 1e-12};
+    stage.supports = {
+        {.nodes = grid.row(grid.rows()), .x = FixityCode::fixed, .y = FixityCode::fixed, .y_value = -0.3}};
+    grid.input.stages = {stage};
+    Residuals residuals;
+    Observer* observers[] = {&residuals};
+    const Model model = build_model(grid.input, everything());
+    ASSERT_EQ(bench().run(model, observers).status, RunStatus::completed);
+    int squared = 0;
+    for (std::size_t i = 1; i < residuals.last.size(); ++i) {
+      const double before = residuals.last[i - 1].force, now = residuals.last[i].force;
+      if (before > 0.03 || now < 1e-13) continue;
+      EXPECT_LT(now, 5.0 * before * before) << element << " " << i;
+      ++squared;
+    }
+    EXPECT_GE(squared, 1) << element;
+    EXPECT_LE(residuals.last.size(), 7u) << element;
+  }
+}
+
+// At nu = .495 the corner beside the platen folds near 12 % on fine meshes (hp elements); coarse ones go further.  The page
+// names the element in that corner and its node on the rim.
+TEST(LargeStrainModels, ACornerThatFoldsEndsTheRunWithItsPlace) {
+  RestrainedCylinder specimen{.slenderness = 1.0, .nu = 0.495, .columns = 6, .rows = 6};
+  DeckWriter deck = specimen.between_rough_platens(0.3);
+  deck.large_strain = true;
+  deck.stages[0].increments = 6;
+  const WholeRun whole = bench().run(deck.text());
+  ASSERT_EQ(whole.result.status, RunStatus::not_converged);
+  EXPECT_EQ(whole.result.code, Code("S555")) << whole.result.reason;
+  EXPECT_GT(whole.last().load_factor, 0.1 / 0.3);
+  EXPECT_NE(whole.result.reason.find("element 36 "), std::string::npos) << whole.result.reason;
+  EXPECT_NE(whole.result.reason.find("turns inside out: its corner at node"), std::string::npos);
+}
+
+// The force of a pinned cylinder at both sizes of strain: they differ in proportion to the strain (theory; slope 1 +- .02).
+TEST(LargeStrainModels, TheDifferenceFromSmallStrainFallsInProportionToTheStrain) {
+  for (const auto& [element, formulation] :
+       {std::pair{"quad8", "reduced"}, {"quad8", "full"}, {"quad4", "b-bar"}}) {
+    double difference[2];
+    int at = 0;
+    for (const double strain : {1e-3, 1e-6}) {
+      double force[2];
+      for (const bool large : {false, true}) {
+        Grid grid = cylinder(element, formulation, elastic(1000.0, 0.3));
+        grid.input.large_strain = large;
+        StageInput stage{.tolerance = 1e-12};
+        stage.supports = {{.nodes = grid.row(grid.rows()),
+                           .x = FixityCode::fixed,
+                           .y = FixityCode::fixed,
+                           .y_value = -2.0 * strain}};
+        grid.input.stages = {stage};
+        const WholeRun whole = run(grid.input);
+        ASSERT_TRUE(whole.completed()) << whole.failure;
+        force[large ? 1 : 0] = whole.reaction(whole.last(), grid.row(grid.rows()), 1);
+      }
+      difference[at++] = std::abs(force[1] / force[0] - 1.0);
+    }
+    EXPECT_LT(difference[1], 1e-5) << element << " " << formulation;
+    EXPECT_NEAR(std::log10(difference[0] / difference[1]) / 3.0, 1.0, 0.02) << element << " " << formulation;
+  }
+}
+
+// The control card keeps it.
+TEST(LargeStrainModels, AWrittenDeckIsTheSameModel) {
+  RestrainedCylinder specimen{.columns = 2, .rows = 2};
+  DeckWriter deck = specimen.between_rough_platens(0.1);
+  deck.large_strain = true;
+  const Model model = bench().build(deck.text());
+  ASSERT_TRUE(model.large_strain);
+  Diagnostics notes;
+  const Model again = bench().build(sage1_text(model, notes));
+  EXPECT_TRUE(again.large_strain);
+  EXPECT_EQ(fingerprint(again), fingerprint(model));
+  deck.large_strain = false;
+  EXPECT_NE(fingerprint(bench().build(deck.text())), fingerprint(model));
+}
+
+// What a model's builder says, or "".
+std::string complaint(const ModelInput& input) {
+  try {
+    build_model(input, everything());
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+void expect_complaint(const ModelInput& input, const std::string& code, const std::string& words) {
+  const std::string text = complaint(input);
+  EXPECT_NE(text.find(code), std::string::npos) << text;
+  EXPECT_NE(text.find(words), std::string::npos) << text;
+}
+
+TEST(LargeStrainModels, ElementsAndLawsThatCannotAreRejectedByName) {
+  Grid enhanced = cylinder("quad4", "enhanced", elastic(1.0, 0.3));
+  enhanced.input.stages = {{}};
+  expect_complaint(enhanced.input, "S551", "quad4 enhanced is for small strain alone");
+  Grid hyperbolic = cylinder("quad8", "reduced", {.law = "", .parameters = {}});
+  hyperbolic.input.stages = {{}};
+  const std::string name = everything().materials.find(6)->name;
+  hyperbolic.input.materials[0].law = name;
+  for (const Parameter& parameter : everything().materials.find(6)->parameters)
+    if (parameter.required)
+      hyperbolic.input.materials[0].parameters[parameter.name] =
+          parameter.name == "friction_angle" ? 30.0 : 0.4;
+  expect_complaint(hyperbolic.input, "S552", "has no elastic logarithmic strain");
+  Grid bars = cylinder("quad8", "reduced", elastic(1.0, 0.3));
+  bars.input.materials.push_back(
+      {.law = everything().materials.find(31)->name, .parameters = {{"stiffness", 1.0}}});
+  bars.input.groups.push_back({.element = "bar2", .material = 2, .elements = {{1, 2}}});
+  bars.input.stages = {{}};
+  expect_complaint(bars.input, "S551", "bar2");
+}
+
+}  // namespace
+}  // namespace sage::test
