@@ -186,7 +186,43 @@ void add_formulation_option(CLI::App& parser, const std::string& flag, const std
   parser.add_option_function<int>(flag, set, words)->check(CLI::Range(0, 99));
 }
 
+namespace {
+
+void add_factor_options(CLI::App& parser, BuildOptions& options) {
+  CLI::Option* const factors =
+      parser
+          .add_option_function<std::vector<std::string>>(
+              "--factors",
+              [&options](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                  for (const PartialFactors& set : partial_factors(text)) options.factors.push_back(set);
+              },
+              "partial factors: " + names_of_factor_sets() + ", or NAME:friction=1.25,variable=1.3,...")
+          ->allow_extra_args(false)
+          ->check([](const std::string& text) {
+            try {
+              partial_factors(text);
+              return std::string();
+            } catch (const std::invalid_argument& error) {
+              return std::string(error.what());
+            }
+          });
+  parser
+      .add_option("--variable", options.actions.variable,
+                  "with --factors: number of a stage whose loads are variable")
+      ->allow_extra_args(false)
+      ->needs(factors);
+  parser
+      .add_option("--structural", options.actions.structural,
+                  "with --factors: number of a stage whose loads come from a structure")
+      ->allow_extra_args(false)
+      ->needs(factors);
+}
+
+}  // namespace
+
 void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue& catalogue) {
+  add_factor_options(parser, options);
   options.say = [](const std::string& text, Code code) { say_note("sagefe", text, code); };
   options.heads = stored_heads(catalogue);
   add_formulation_option(parser, "--formulation", "replace the formulation code of all solid elements",

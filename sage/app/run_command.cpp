@@ -18,9 +18,11 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/report_page.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/run_outputs.hpp"
 #include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
+#include "sage/record/factor_envelope.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
 #include "sage/record/sketch.hpp"
@@ -78,6 +80,78 @@ Json deck_json(const std::string& deck, int exit_code, Json found) {
   return json;
 }
 
+// model: gets the model of a run that has results.
+int compute_request(const RunRequest& request, const Catalogue& catalogue, Json& found,
+                    std::unique_ptr<Model>* model = nullptr) {
+  const std::string& deck = request.deck;
+  RunOutcome outcome = run_deck(request, catalogue);
+  if (screen().json && !outcome.record.stages.empty()) found = outcome_json(outcome);
+  if (outcome.exit_code == kInterrupted) {
+    say_error(deck, "interrupted: " + outcome.record.result.reason + "; " + way_on(outcome), "S511");
+    return outcome.exit_code;
+  }
+  if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
+  if (screen().quiet || screen().json) {
+    say_notes(deck, outcome.record.notes);
+    say_report_messages(request, *outcome.reports);
+  } else {
+    if (request.input.strict) say_report_messages(request, *outcome.reports);
+    fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
+                               outcome.error.get(), request.output.digits, sketch_for_screen(outcome),
+                               screen().verbose));
+  }
+  if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
+  if (const std::optional<Code>& code = outcome.record.result.code; code && outcome.exit_code != kOk)
+    say_error(deck, outcome.record.result.reason, *code);
+  if (model != nullptr) *model = std::move(outcome.model);
+  return outcome.exit_code;
+}
+
+Json ranges_json(const Model& model, const std::vector<FactoredEnds>& sets) {
+  Json ranges = Json::array();
+  const auto extreme = [&](const FactoredExtreme& one) {
+    return Json{
+        {"value", one.value}, {"set", sets[one.set].set.name}, {"stage", one.stage}, {"element", one.element}};
+  };
+  for (const FactoredRange& range : factored_ranges(model, sets))
+    ranges.push_back({{"group", model.groups[range.group].number},
+                      {"quantity", kEndQuantities[range.quantity]},
+                      {"least", extreme(range.least)},
+                      {"largest", extreme(range.largest)}});
+  return ranges;
+}
+
+// One run per set of factors, and the envelope of them all.
+int compute_factors(const RunRequest& request, const Catalogue& catalogue, Json& found) {
+  std::vector<FactoredEnds> ends;
+  std::unique_ptr<Model> model;
+  int worst = kOk;
+  found = {{"sets", Json::array()}};
+  for (const PartialFactors& set : request.input.build.factors) {
+    RunRequest one = request;
+    one.input.build.factors = {set};
+    one.stem = stem_of(request) + "." + factor_word(set);
+    FactorEnvelope envelope;
+    one.watch = &envelope;
+    Json part;
+    worst = std::max(worst, compute_request(one, catalogue, part, &model));
+    if (part.is_object()) part["factors"] = set.name;
+    found["sets"].push_back(std::move(part));
+    ends.push_back({set, envelope.rows()});
+    if (worst == kInterrupted) return worst;
+  }
+  if (!model || end_quantities(*model).empty()) return worst;
+  const std::filesystem::path file = request.output.folder / (stem_of(request) + ".factors.csv");
+  write_file(file, factored_csv(*model, ends, csv_digits(request.output)));
+  found["envelope"] = ranges_json(*model, ends);
+  found["files"] = files_json({file});
+  if (!screen().quiet && !screen().json) {
+    fmt::print("{}", factored_text(*model, ends));
+    print_files({file});
+  }
+  return worst;
+}
+
 // One deck's failure does not keep the next from running.  found: what the answer says of it, with --json.
 int compute_deck(const RunOptions& options, const std::string& deck, const Catalogue& catalogue, Json& found) {
   RunRequest request = options.request;
@@ -106,26 +180,8 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
                  "S909");
       return converge(request, options.converge, catalogue, screen().json ? &found : nullptr);
     }
-    const RunOutcome outcome = run_deck(request, catalogue);
-    if (screen().json && !outcome.record.stages.empty()) found = outcome_json(outcome);
-    if (outcome.exit_code == kInterrupted) {
-      say_error(deck, "interrupted: " + outcome.record.result.reason + "; " + way_on(outcome), "S511");
-      return outcome.exit_code;
-    }
-    if (outcome.record.stages.empty()) return outcome.exit_code;  // --strict stopped it
-    if (screen().quiet || screen().json) {
-      say_notes(deck, outcome.record.notes);
-      say_report_messages(request, *outcome.reports);
-    } else {
-      if (request.input.strict) say_report_messages(request, *outcome.reports);
-      fmt::print("{}\n", summary(*outcome.model, outcome.record, outcome.reports.get(), outcome.files,
-                                 outcome.error.get(), request.output.digits, sketch_for_screen(outcome),
-                                 screen().verbose));
-    }
-    if (request.profile) fmt::print("{}\n", profile_table(outcome.record.profile));
-    if (const std::optional<Code>& code = outcome.record.result.code; code && outcome.exit_code != kOk)
-      say_error(deck, outcome.record.result.reason, *code);
-    return outcome.exit_code;
+    return request.input.build.factors.empty() ? compute_request(request, catalogue, found)
+                                               : compute_factors(request, catalogue, found);
   });
 }
 

@@ -36,6 +36,9 @@ std::string words_of(const BuildOptions& build) {
   for (const PointRequest& p : build.points)
     words.push_back(fmt::format("--point={},{}:{}", p.place.x(), p.place.y(), p.name) +
                     (p.group != 0 ? fmt::format(":{}", p.group) : ""));
+  for (const PartialFactors& set : build.factors) words.push_back("--factors=" + text_of(set));
+  for (const int stage : build.actions.variable) add("--variable", std::to_string(stage));
+  for (const int stage : build.actions.structural) add("--structural", std::to_string(stage));
   if (build.geometry != 0) add("--geometry", std::to_string(build.geometry));
   if (build.solver >= 0) add(kSolver, std::to_string(build.solver));
   return fmt::format("{}", fmt::join(words, "\n"));

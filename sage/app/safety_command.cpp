@@ -51,11 +51,32 @@ struct MeshResult {
   double middle() const { return 0.5 * (*found.lower + *found.upper); }
 };
 
+// Of the result files: the deck's name, with that of the set of factors.
+std::string stem_of(const SafetyOptions& options) {
+  std::string stem = case_name(options.deck);
+  for (const PartialFactors& set : options.input.build.factors) stem += "." + factor_word(set);
+  return stem;
+}
+
 // What was found in the deck.  Throws InputError where warnings count.
 void report(const SafetyOptions& options, const Diagnostics& found) {
   print_diagnostics(found);
   if (options.input.strict && found.warnings() > 0)
     throw InputError("S906", {options.deck, 0, 0, 0}, "warnings count as errors (--strict)");
+}
+
+// What the factor has to reach under the partial factors of the options.
+std::string requirement(const SafetyOptions& options, const Safety& found) {
+  if (options.input.build.factors.empty()) return {};
+  const PartialFactors& set = options.input.build.factors.front();
+  const double required = set.required();
+  const char* const verdict = found.lower && *found.lower >= required   ? "fulfilled"
+                              : found.upper && *found.upper <= required ? "NOT fulfilled"
+                                                                        : "not decided";
+  return fmt::format(
+      "\nfactors {}: strengths and loads have their design values; the factor has to reach {:.5g} "
+      "(effects x resistance): {}\n",
+      set.name, required, verdict);
 }
 
 MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue, int refine, Task& task) {
@@ -175,22 +196,24 @@ Json safety_json(const SafetyOptions& options, const Meshes& meshes) {
                      {"lower", number(mesh.found.lower)},
                      {"upper", number(mesh.found.upper)},
                      {"options", mesh.options}});
-  return {{"deck", json_text(options.deck)},
-          {"lower", number(found.lower)},
-          {"upper", number(found.upper)},
-          {"complete", found.complete()},
-          {"incomplete", json_text(found.incomplete)},
-          {"divided", json_list(found.reduced)},
-          {"not_divided", json_list(found.untouched)},
-          {"reduce", std::move(reduce)},
-          {"fails", std::move(fails)},
-          {"trials", std::move(trials)},
-          {"meshes", std::move(table)}};
+  Json json = {{"deck", json_text(options.deck)},
+               {"lower", number(found.lower)},
+               {"upper", number(found.upper)},
+               {"complete", found.complete()},
+               {"incomplete", json_text(found.incomplete)},
+               {"divided", json_list(found.reduced)},
+               {"not_divided", json_list(found.untouched)},
+               {"reduce", std::move(reduce)},
+               {"fails", std::move(fails)},
+               {"trials", std::move(trials)},
+               {"meshes", std::move(table)}};
+  if (!options.input.build.factors.empty()) json["required"] = options.input.build.factors.front().required();
+  return json;
 }
 
 std::vector<std::filesystem::path> write_files(const SafetyOptions& options, const MeshResult& mesh,
                                                const std::string& text) {
-  const std::string stem = case_name(options.deck);
+  const std::string stem = stem_of(options);
   std::vector<std::filesystem::path> files;
   const auto write = [&](const char* ending, const std::string& content) {
     if (content.empty()) return;
@@ -219,17 +242,18 @@ int exit_code_of(const SafetyOptions& options, const Meshes& meshes) {
   return found.complete() && meshes.ended.empty() ? kOk : kNotConverged;
 }
 
-int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
+int find_one(const SafetyOptions& options, const Catalogue& catalogue) {
   return guarded(options.deck, [&] {
     if (options.converge > 0.0) require_file(options.deck, "--converge");
     keep_input(options.deck);
     const InterruptWatch watch;  // before the first file, so that none stays behind under a temporary name
-    ResultFiles results(options.folder, case_name(options.deck) + ".safety", {options.deck, 0, "safety"});
+    ResultFiles results(options.folder, stem_of(options) + ".safety", {options.deck, 0, "safety"});
     keep_heap_in_large_pages();
     const Meshes meshes = find_on_meshes(options, catalogue);
     const MeshResult& last = meshes.done.back();
     std::string text = safety::to_text(*last.model, options.search, last.found);
     if (options.converge > 0.0) text += mesh_table(options, meshes);
+    text += requirement(options, last.found);
     const std::vector<std::filesystem::path> files = write_files(options, last, text);
     say_left(options.deck, results.close());
     const ProgressPause pause;
@@ -241,6 +265,24 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
     }
     return exit_code_of(options, meshes);
   });
+}
+
+// One search per set of factors.
+int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
+  const std::vector<PartialFactors>& sets = options.input.build.factors;
+  if (sets.size() < 2) return find_one(options, catalogue);
+  if (answer() != nullptr) {
+    say_error(options.deck, "--json holds one answer: give one set of --factors at a time", "S742");
+    return kUsage;
+  }
+  int worst = kOk;
+  for (const PartialFactors& set : sets) {
+    SafetyOptions one = options;
+    one.input.build.factors = {set};
+    worst = std::max(worst, find_one(one, catalogue));
+    if (worst == kInterrupted) break;
+  }
+  return worst;
 }
 
 void add_search_options(CLI::App& parser, SafetyOptions& o) {

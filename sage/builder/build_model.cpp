@@ -311,6 +311,29 @@ std::optional<Deck> cards_of(const Deck& as_read, const Catalogue& catalogue) {
 
 }  // namespace builder
 
+namespace {
+
+// Partial factors that the options ask for.
+void take_factors(builder::Builder& b) {
+  const BuildOptions& options = b.options;
+  if (options.factors.empty()) return;
+  const SourcePosition where{b.model.file, 0, 0, 0};
+  if (options.factors.size() > 1)
+    throw InputError("S742", where,
+                     "one set of factors was expected here, not " + std::to_string(options.factors.size()));
+  for (const std::vector<int>* list : {&options.actions.variable, &options.actions.structural})
+    for (const int stage : *list)
+      if (stage < 1 || stage > static_cast<int>(b.model.stages.size()))
+        throw InputError("S742", where,
+                         "the deck has no stage " + std::to_string(stage) +
+                             " for --variable or --structural; it has " +
+                             std::to_string(b.model.stages.size()));
+  const std::string done = apply_factors(b.model, options.factors.front(), options.actions);
+  b.model.diagnostics.add({Severity::note, "S741", where, done, {}});
+}
+
+}  // namespace
+
 Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOptions& options) {
   refuse_draft(as_read);
   const std::optional<Deck> rewritten = builder::cards_of(as_read, catalogue);
@@ -341,6 +364,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   builder::build_laws(b);
   if (b.model.large_strain) builder::take_large_strain(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
+  take_factors(b);
   builder::check_model(b);
   builder::check_stages(b);
   builder::check_points(b);

@@ -9,6 +9,7 @@
 #include "sage/deck/deck.hpp"
 #include "sage/mesh/mesh_options.hpp"
 #include "sage/model/model.hpp"
+#include "sage/model/partial_factors.hpp"
 
 namespace sage {
 
@@ -44,8 +45,10 @@ struct BuildOptions : MeshOptions {
   HeadReader heads;                  // for water cards that name a result file; empty = they are refused
   bool dilates =
       true;  // false: the analysis takes all dilation away, and nothing is chosen or said because of it
-  bool associated = false;      // solids dilate by their friction angle, whatever dilation the deck states
-  bool points_outside = false;  // a requested point may lie outside: its report is blank then
+  bool associated = false;  // solids dilate by their friction angle, whatever dilation the deck states
+  std::vector<PartialFactors> factors;  // one set at most; empty = none
+  ActionStages actions;                 // with factors
+  bool points_outside = false;          // a requested point may lie outside: its report is blank then
 };
 
 // Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.

@@ -1386,8 +1386,20 @@ constexpr MessageEntry kMessages[] = {
     {"S739", "a named part of the mesh can't be used so",
      "An option of sagefe convert names a curve, point or set that the mesh lacks, or one that does not fit "
      "the "
-     "use: a force needs one node, a structure and a pressure need lines, a water line one height for each x.",
+     "use. A force needs one node. A structure and a pressure need lines. A water line has one height for each "
+     "x.",
      "Choose one of the names that the message lists, or another option."},
+    {"S741", "partial factors are in force",
+     "The option --factors multiplies loads and divides strengths of the deck; the note says by how much. "
+     "Section "
+     "forces in the files of one set are those of the calculation; the table of all sets has them times the "
+     "factor on effects.",
+     "Nothing, where that is meant. --variable N names the stages whose loads are variable."},
+    {"S742", "the sets of partial factors do not fit",
+     "The command computes one set at a time and --factors gives several, or --variable or --structural names "
+     "a "
+     "stage that the deck lacks.",
+     "Give one set, or a stage of the deck. sagefe run and sagefe safety accept several sets."},
     // S8: pieces from outside of the program.
     {"S801", "the deck needs a plug-in that is not loaded",
      "A line \"* plugin: NAME\" before the first card names a plug-in that the deck was written for. A deck "

@@ -16,10 +16,10 @@ double divided_angle(double angle, double factor) {
   return std::atan(std::tan(angle * kRadiansPerDegree) / factor) / kRadiansPerDegree;
 }
 
-double reduced_dilation(double psi, double phi_left, const StrengthReduction& reduction) {
-  switch (reduction.dilation) {
+double reduced_dilation(double psi, double phi_left, const StrengthFactors& factors) {
+  switch (factors.dilation) {
     case DilationRule::reduced:
-      return divided_angle(psi, reduction.factor);
+      return divided_angle(psi, factors.friction);
     case DilationRule::kept:
       return std::min(psi, phi_left);
     case DilationRule::none:
@@ -39,6 +39,13 @@ ModelPart part_of_law(int components) {
     default:
       return ModelPart::walls;
   }
+}
+
+// Some angle of friction of the law is above zero.
+bool has_friction(std::span<const double> parameters, const MaterialEntry& entry) {
+  for (std::size_t i = 0; i < std::min(parameters.size(), entry.parameters.size()); ++i)
+    if (entry.parameters[i].role == ParameterRole::friction_angle && parameters[i] > 0.0) return true;
+  return false;
 }
 
 }  // namespace
@@ -87,10 +94,9 @@ bool has_less_dilation(const Model& model) {
   });
 }
 
-bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
-                     const StrengthReduction& reduction) {
+bool divide_strength(std::span<double> parameters, const MaterialEntry& entry, const StrengthFactors& factors) {
   if (!has_strength(entry)) return false;
-  const double F = reduction.factor;
+  const double F = has_friction(parameters, entry) ? factors.cohesion : factors.undrained;
   double phi = 0.0, phi_left = 0.0;  // of the rows so far: others refer to the friction angle before them
   for (std::size_t i = 0; i < std::min(parameters.size(), entry.parameters.size()); ++i) {
     double& value = parameters[i];
@@ -103,20 +109,26 @@ bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
         // A softening law's -1 stands for the angle before it.
         if (value < 0.0) break;
         phi = value;
-        value = phi_left = divided_angle(value, F);
+        value = phi_left = divided_angle(value, factors.friction);
         break;
       case ParameterRole::friction_loss:
         // The angle at ten times the pressure is divided like any other.
-        if (value != 0.0) value = phi_left - divided_angle(phi - value, F);
+        if (value != 0.0) value = phi_left - divided_angle(phi - value, factors.friction);
         break;
       case ParameterRole::dilation_angle:
-        if (value > 0.0) value = reduced_dilation(value, phi_left, reduction);
+        if (value > 0.0) value = reduced_dilation(value, phi_left, factors);
         break;
       default:
         break;
     }
   }
   return true;
+}
+
+bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
+                     const StrengthReduction& reduction) {
+  const double F = reduction.factor;
+  return divide_strength(parameters, entry, {F, F, F, reduction.dilation});
 }
 
 bool reduce_strength(Material& material, const StrengthReduction& reduction) {

@@ -53,6 +53,12 @@ struct StrengthReduction {
   DilationRule dilation = DilationRule::reduced;
 };
 
+// What divides tan(phi), cohesions and tensile strengths, and those of laws without friction.
+struct StrengthFactors {
+  double friction = 1.0, cohesion = 1.0, undrained = 1.0;
+  DilationRule dilation = DilationRule::reduced;
+};
+
 // Some parameter of the law is a strength.
 bool has_strength(const MaterialEntry& entry);
 // Some law that points of the material may have in force has one.
@@ -65,6 +71,7 @@ bool has_less_dilation(const Model& model);
 // that a structure carries / F, angles of friction atan(tan(phi) / F), dilation by the rule.  Numbers that are not positive
 // (0, or -1 for "none") stay.
 // False: the law has no strength, nothing changes.
+bool divide_strength(std::span<double> parameters, const MaterialEntry& entry, const StrengthFactors& factors);
 bool reduce_strength(std::span<double> parameters, const MaterialEntry& entry,
                      const StrengthReduction& reduction);
 // Of every law that points of the material may have in force; the law itself is to be made anew.
