@@ -6,6 +6,7 @@ import os
 import pathlib
 import shutil
 import signal
+import socket
 import subprocess
 import time
 
@@ -260,8 +261,144 @@ def test_gnu_parallel_gives_the_same_table(tmp_path):
     assert (tmp_path / "parts" / "study.sweep.csv").read_bytes() == (tmp_path / "whole" / "study.sweep.csv").read_bytes()
 
 
-def test_slurm_gives_the_same_table(tmp_path):
-    """With an sbatch of the test's own, which runs the array one after the other; a real one where there is one."""
+MANY = ('collect = ["report1.ratio"]\n[grid]\n"material.1.nu" = {from = 0.1, to = 0.49, count = 300}\n')
+
+
+def kill_worker(process, part, folder):
+    """Ends the worker of that part of `folder`, once it has finished some cases."""
+    deadline = time.monotonic() + 60
+    while process.poll() is None and time.monotonic() < deadline:
+        number = part.split("/")[0]
+        journal = folder / f"study.cases.{number}"
+        if journal.exists() and journal.read_bytes().count(b"\n") > 3:
+            for cmdline in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+                try:
+                    words = cmdline.read_bytes().split(b"\0")
+                except OSError:
+                    continue
+                if words[0].endswith(b"sagefe") and part.encode() in words and str(folder).encode() in words:
+                    os.kill(int(cmdline.parent.name), signal.SIGKILL)
+                    return True
+        time.sleep(0.005)
+    return False
+
+
+def expect_same_after_kill(tmp_path, option, environment=None):
+    file = study(tmp_path, MANY)
+    sweep(file, tmp_path / "whole")
+    parts = tmp_path / "parts"
+    process = subprocess.Popen([PROGRAM, "sweep", str(file), "-o", str(parts), option, "2"], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True, env=environment)
+    killed = kill_worker(process, "1/2", parts)
+    out, err = process.communicate(timeout=120)
+    assert killed and process.returncode == 0, out + err
+    assert (parts / "study.sweep.csv").read_bytes() == (tmp_path / "whole" / "study.sweep.csv").read_bytes()
+    keys = [line.split("\t")[0] for journal in parts.glob("study.cases.*") for line in journal.read_text().split("\n")
+            if line.count("\t") == 5]
+    assert len(keys) == len(set(keys)) == 300  # no case ran twice
+
+
+def test_gnu_parallel_after_the_kill_of_a_worker(tmp_path):
+    if shutil.which("parallel") is None:
+        pytest.skip("there is no GNU parallel on this machine (apt-get install parallel)")
+    expect_same_after_kill(tmp_path, "--parallel")
+
+
+def free_ports(count):
+    sockets = [socket.socket() for _ in range(count)]
+    try:
+        for one in sockets:
+            one.bind(("127.0.0.1", 0))
+        return [one.getsockname()[1] for one in sockets]
+    finally:
+        for one in sockets:
+            one.close()
+
+
+@pytest.fixture
+def slurm(tmp_path):
+    """A cluster of this machine alone: munge and Slurm with a socket, ports and a state folder of their own.  Ends with the test."""
+    if os.geteuid() != 0:
+        pytest.skip("starting Slurm needs root")
+    missing = [tool for tool in ("munged", "slurmctld", "slurmd", "sbatch", "sinfo") if shutil.which(tool) is None]
+    if missing:
+        pytest.skip(f"{', '.join(missing)} not found (apt-get install slurm-wlm munge)")
+    folder = tmp_path / "slurm"
+    for name in ("state", "spool"):
+        (folder / name).mkdir(parents=True)
+    key = folder / "key"
+    key.write_bytes(os.urandom(1024))
+    key.chmod(0o600)
+    host = socket.gethostname().split(".")[0]
+    ports = free_ports(2)
+    config = folder / "slurm.conf"
+    config.write_text(f"""
+ClusterName=test
+SlurmctldHost={host}(127.0.0.1)
+AuthType=auth/munge
+AuthInfo=socket={folder}/socket
+SlurmUser=root
+SlurmdUser=root
+StateSaveLocation={folder}/state
+SlurmdSpoolDir={folder}/spool
+SlurmctldPidFile={folder}/ctld.pid
+SlurmdPidFile={folder}/d.pid
+SlurmctldLogFile={folder}/ctld.log
+SlurmdLogFile={folder}/d.log
+SlurmctldPort={ports[0]}
+SlurmdPort={ports[1]}
+ProctrackType=proctrack/linuxproc
+TaskPlugin=task/none
+SwitchType=switch/none
+MpiDefault=none
+SelectType=select/cons_tres
+SelectTypeParameters=CR_Core
+SchedulerParameters=sched_interval=1,batch_sched_delay=0
+ReturnToService=2
+NodeName={host} NodeAddr=127.0.0.1 CPUs={min(2, os.cpu_count() or 1)} State=UNKNOWN
+PartitionName=all Nodes=ALL Default=YES MaxTime=INFINITE State=UP
+""")
+    environment = {**os.environ, "SLURM_CONF": str(config)}
+    munge = ["munged", "--force", "--foreground", *(f"--{name}-file={folder}/{name}" for name in ("key", "pid", "log", "seed")),
+             f"--socket={folder}/socket"]
+    started = []
+    try:
+        for command, ready in ((munge, lambda: (folder / "socket").exists()), (["slurmctld", "-D"], lambda: sinfo(environment)),
+                               (["slurmd", "-D"], lambda: "idle" in sinfo(environment))):
+            started.append(subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+            deadline = time.monotonic() + 30
+            while not ready():
+                if started[-1].poll() is not None or time.monotonic() > deadline:
+                    pytest.skip(f"{command[0]} does not start here")
+                time.sleep(0.1)
+        yield environment
+    finally:
+        for one in reversed(started):
+            one.terminate()
+            one.wait(timeout=60)
+
+
+def sinfo(environment):
+    return subprocess.run(["sinfo", "-h", "-o", "%T"], env=environment, capture_output=True, text=True, timeout=60).stdout
+
+
+def test_slurm_gives_the_same_table(tmp_path, slurm):
+    file = study(tmp_path, TABLE)
+    sweep(file, tmp_path / "whole")
+    done = subprocess.run([PROGRAM, "sweep", str(file), "-o", str(tmp_path / "parts"), "--slurm", "2"], capture_output=True,
+                          text=True, env=slurm, timeout=120)
+    assert done.returncode == 0, done.stderr
+    assert "0 computed, 3 kept" in done.stdout
+    assert "#SBATCH --array=1-2" in (tmp_path / "parts" / "study.slurm.sh").read_text()
+    assert (tmp_path / "parts" / "study.sweep.csv").read_bytes() == (tmp_path / "whole" / "study.sweep.csv").read_bytes()
+
+
+def test_slurm_after_the_kill_of_a_worker(tmp_path, slurm):
+    expect_same_after_kill(tmp_path, "--slurm", slurm)
+
+
+def test_without_slurm(tmp_path):
+    """With an sbatch of the test's own, which runs the array one after the other."""
     file = study(tmp_path, TABLE)
     sweep(file, tmp_path / "whole")
     tools = tmp_path / "tools"
@@ -275,3 +412,4 @@ def test_slurm_gives_the_same_table(tmp_path):
     assert "0 computed, 3 kept" in done.stdout
     assert "#SBATCH --array=1-2" in (tmp_path / "parts" / "study.slurm.sh").read_text()
     assert (tmp_path / "parts" / "study.sweep.csv").read_bytes() == (tmp_path / "whole" / "study.sweep.csv").read_bytes()
+
