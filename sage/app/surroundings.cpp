@@ -182,19 +182,22 @@ void SurroundingsReader::on_increment(const Model& model, const StepReport& step
 namespace {
 
 // How the errors of a sequence's meshes follow from what they change: measured on 520 points in ten scenes
-// (docs/theory/accuracy.md), so that no error is too small and the median is about ten times the true one.
+// (docs/theory/accuracy.md), so that no error is too small and the median is less than ten times the true one.
 struct Shares {
   double change, missing;  // of what the mesh changed, and of what its elements show to be missing
   double slow;             // from this ratio of two changes on the series is a slow geometric one
   double mean = 0.0;       // of the mean change over the elements
+  double before = 0.0;     // a change below this part of the one before is chance
 };
 
 // mesh: from 1.  Pressures near nu = 1/2 converge less evenly.
 Shares shares_of(int mesh, double stiffness_of_volume) {
-  if (mesh == 2) return {0.75, 1.2, kUnknown};
-  if (mesh == 3) return {0.6, 2.2, 0.4};
-  if (mesh == 4) return {std::pow(stiffness_of_volume, 0.05) / 14.0, 1.5, 0.45};
-  if (mesh == 5) return {std::clamp(std::sqrt(stiffness_of_volume) / 200.0, 1.0 / 54.0, 0.4), 1.2, 0.2, 0.35};
+  if (mesh == 2) return {0.55, 1.45, kUnknown};
+  if (mesh == 3) return {0.46, 2.2, 0.4};
+  if (mesh == 4) return {std::pow(stiffness_of_volume, 0.05) / 26.0, 1.4, 0.45};
+  if (mesh == 5)
+    return {std::min(std::sqrt(stiffness_of_volume) / 200.0, 0.11), 1.1, 0.2, 0.35,
+            std::min(1e-4 * stiffness_of_volume, 0.015)};
   return {0.035, 1.5, 0.2, 0.3};
 }
 
@@ -226,19 +229,21 @@ double stiffness_of_volume(const Model& model) {
 double LocalErrors::spectral_error(const Change& now, const Change* before, double stiffness) const {
   constexpr double kSisters = 0.3, kMostOff = 1.5;
   const Shares shares = shares_of(mesh_, stiffness);
-  const double change = std::max(now.own, kSisters * now.largest);
-  double missing = std::isnan(now.missing) ? 0.0 : std::max(now.missing, kSisters * now.largest_missing);
-  double part = shares.change;
+  const auto with_sisters = [](double own, double largest) { return std::max(own, kSisters * largest); };
+  double change = with_sisters(now.own, now.largest), slow = 0.0;
+  double missing = std::isnan(now.missing) ? 0.0 : with_sisters(now.missing, now.largest_missing);
   if (before != nullptr && !now.only_rounding()) {
     const double r = now.largest / before->largest;
     if (r >= 1.0) return kUnknown;
-    if (r > shares.slow) part = std::max(part, rest(r, 3.0));
+    if (r > shares.slow) slow = rest(r, 3.0) * change;
+    change = std::max(change, shares.before * with_sisters(before->own, before->largest));
     // What the mesh before showed to be missing can be compared with what this one changed.
     if (mesh_ == 3 && before->largest_missing > 0.0)
       missing *= std::max(0.5, std::min(kMostOff, now.largest / before->largest_missing));
   }
-  const double mean = shares.mean * std::max(now.mean, kSisters * now.largest_mean);
-  return std::max({part * change, mean, shares.missing * missing, least_share(stiffness) * now.size});
+  const double mean = with_sisters(now.mean, now.largest_mean);
+  const double all = std::hypot(shares.change * change, shares.mean * mean, shares.missing * missing);
+  return std::max({all, slow, least_share(stiffness) * now.size});
 }
 
 // Halved elements: their degree bounds how fast a change can fall.
