@@ -117,16 +117,16 @@ TEST(Dilation, OfFourNodeElementsIsWarnedOfByEveryCommand) {
 }
 
 // The same slope with the formulation left open: limit analysis gives 1.359 to 1.3682 for associated flow, and the mesh
-// may add 2 %.
+// may add 2 %.  Its own factor is 1.3924 to 1.3933 (--tolerance .0015).
 TEST(Dilation, EnhancedElementsFindTheFactorOfASlope) {
-  const Finished run = sagefe(with_deck("slope_2to1_quad4"), "safety deck.dat -o out --start 1.37");
+  const Finished run = sagefe(with_deck("slope_2to1_quad4"), "safety deck.dat -o out --tolerance .005");
   double low = 0.0, high = 0.0;
   const std::size_t at = run.out.find("safety factor between ");
   ASSERT_NE(at, std::string::npos) << run.out << run.err;
   ASSERT_EQ(std::sscanf(run.out.c_str() + at, "safety factor between %lf and %lf", &low, &high), 2);
   EXPECT_EQ(run.out.find("NOT PROVED"), std::string::npos) << run.out;
   EXPECT_GT(low, 1.359);
-  EXPECT_LT(0.5 * (low + high), 1.02 * 1.3682);
+  EXPECT_LE(high, 1.02 * 1.3682);
 }
 
 // Pulled apart beyond its tension cut-off: every point is cut off.

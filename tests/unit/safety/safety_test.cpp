@@ -398,6 +398,29 @@ TEST(Safety, ALaterStageMayBeSafer) {
   expect_within(find_with_fewer_trials(scenes::braced_excavation(1).deck(), options), 5.15, 5.19);
 }
 
+// Stage 3 alone has 5.165 to 5.172.  In its first stage one iterate threw the corner behind the wall 3e10 m away, into an
+// equilibrium of Newton's method, and 5.178 counted as stable.
+TEST(Safety, GroundThatLeavesTheModelIsNotStable) {
+  Options options;
+  options.start = Start::anew;
+  options.limits.start = options.limits.smallest = 5.178271484375005;
+  EXPECT_FALSE(find(scenes::braced_excavation(1).deck(), options).lower);
+}
+
+// A spring of 10 kN/m below the tip holds the wall after the ground has slipped by 12 m.  Short steps found that without
+// changes of history, and 5.184 counted as stable; the bracket carried along is 5.169 to 5.176.
+TEST(Safety, GroundThatSlipsToASpringIsNotStable) {
+  scenes::WallInGround scene = scenes::braced_excavation(1);
+  scene.tip_spring = 10.0;
+  Options options;
+  options.start = Start::anew;
+  options.limits.start = options.limits.smallest = 5.184375;
+  const Safety found = find(scene.deck(), options);
+  EXPECT_FALSE(found.lower);
+  ASSERT_TRUE(found.upper);
+  EXPECT_TRUE(found.at(found.upper)->proved);
+}
+
 TEST(Safety, NothingToDivideIsRefused) {
   EXPECT_THROW(find(column({1e4, 0.3}, 1)), InputError);
   Options other;
