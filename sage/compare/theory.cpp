@@ -31,6 +31,11 @@ bool is_plastic(const Material& material) {
   return material.law_name == "drucker_prager" || material.law_name == "mohr_coulomb";
 }
 
+// Its closed forms are those of small strain.
+bool small_strain(const Side& side) {
+  return !side.model().large_strain;
+}
+
 bool plane(const Side& side) {
   return side.model().geometry == Geometry::plane_strain;
 }
@@ -169,7 +174,7 @@ bool fills_box(const Side& side) {
 
 std::optional<Modulus> modulus_of(const Side& side) {
   const Material* material = only_material(side.model());
-  if (!fills_box(side)) return std::nullopt;
+  if (!fills_box(side) || !small_strain(side)) return std::nullopt;
   if (material == nullptr || !is_elastic(*material)) return std::nullopt;
   Modulus m;
   m.lateral = lateral_of(side);
@@ -223,7 +228,7 @@ void add_strengths(std::vector<Expectation>& list, const Side& a, const Side& b)
   for (int k = 0; k < 2; ++k) {
     const Model& model = sides[k]->model();
     const Material* material = only_material(model);
-    if (material == nullptr || !is_plastic(*material)) return;
+    if (material == nullptr || !is_plastic(*material) || !small_strain(*sides[k])) return;
     for (std::size_t i = 0; i < model.reports.size(); ++i) {
       if (model.reports[i].kind != ReportKind::triaxial || sides[k]->reports().triaxial(i).empty()) continue;
       strength[k] = strength_deviator(*material, model.geometry, model.reports[i].cell_pressure);
@@ -312,6 +317,7 @@ bool uniform_ends(const Side& side, std::size_t stage) {
 double plane_strain_defect(const Side& side) {
   const auto now = side.last().groups(), start = side.first().groups();
   double worst = kUnknown, size = 0.0;
+  if (!small_strain(side)) return worst;
   for (std::size_t g = 0; g < now.size(); ++g) {
     const Material& material = side.model().material_of(*now[g].group);
     if (!now[g].active || !start[g].active || !is_solid(*now[g].group) || !is_elastic(material)) continue;

@@ -156,7 +156,8 @@ void Listing::on_finish(const Model& model, const RunResult& result) {
   if (result.status == RunStatus::completed)
     text += model.left_out.empty() ? "\n   RUN COMPLETED\n"
                                    : "\n   RUN COMPLETED, BUT PARTIAL: " + left_out_words(model) + "\n";
-  if (const std::string beyond = motion_words(result.motion); !beyond.empty()) text += "\n   " + beyond + "\n";
+  if (const std::string beyond = motion_words(model, result.motion); !beyond.empty())
+    text += "\n   " + beyond + "\n";
   if (result.status != RunStatus::completed)
     fmt::format_to(
         std::back_inserter(text),

@@ -77,8 +77,9 @@ std::string remarks(const Model& model, std::size_t index) {
     return fmt::format(
         "# triaxial report; compression positive; strain and deviator count from the start of stage {0}; units "
         "{1}, {2}, {3}; forces {4}\n"
-        "# correct: one point of the law, frictionless ends; ratio = measured / correct deviator\n",
-        report.stage + 1, u.length, u.force, u.stress, per);
+        "# correct: one point of the law, frictionless ends; ratio = measured / correct deviator\n{5}",
+        report.stage + 1, u.length, u.force, u.stress, per,
+        model.large_strain ? "# large strain: both are nominal stresses, force over the first area\n" : "");
   if (report.kind == ReportKind::nodes)
     return fmt::format(
         "# node report: mean displacement since the start of stage {}, sum of the forces that loads and "
@@ -103,8 +104,9 @@ std::string remarks(const Model& model, std::size_t index) {
   return fmt::format(
       "# {}; displacement along +x, +y and strain since the start of stage {}; stress and strain compression "
       "positive, shear likewise reversed and engineering; units {}, {}\n"
-      "# mean_stress = (xx + yy + zz) / 3, deviator = sqrt(3 J2); blank while nothing is active there\n{}",
+      "# mean_stress = (xx + yy + zz) / 3, deviator = sqrt(3 J2); blank while nothing is active there\n{}{}",
       report_title(model, index), report.stage + 1, u.length, u.stress,
+      model.large_strain ? fmt::format("# large strain: {}\n", kLargeStrainWords) : std::string(),
       model.geometry == Geometry::axisymmetric ? "# x = r, y = z, zz = hoop\n" : "");
 }
 
@@ -197,8 +199,10 @@ SpecimenStart start_of_specimen(const Model& model, const Report& report, const 
   const StateStore& state = groups[at].state;
   if (state.law_size() != 4) return start;
   const auto history = static_cast<std::size_t>(state.history_size());
+  const std::size_t of_law = history_of(groups[at].law).size();
   start.history = value_of_all(state.committed.h, history, kAlike);
-  if (start.history.empty() && history > 0)
+  if (start.history.size() > of_law) start.history.resize(of_law);  // the element's own come last
+  if (start.history.empty() && of_law > 0)
     start.note =
         "history differs between the points of the specimen; the correct test starts from the law's own";
   start.sigma = value_of_all(state.committed.sigma, 4, kAlike);
@@ -211,8 +215,10 @@ SpecimenStart start_of_specimen(const Model& model, const Report& report, const 
 }
 
 CorrectTest::CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure,
-                         const SpecimenStart& start)
-    : geometry_(geometry), start_(-cell_pressure, -cell_pressure, -cell_pressure, 0.0) {
+                         const SpecimenStart& start, bool large_strain)
+    : geometry_(geometry),
+      large_strain_(large_strain),
+      start_(-cell_pressure, -cell_pressure, -cell_pressure, 0.0) {
   if (!start.sigma.empty()) start_ = Eigen::Map<const Vector4>(start.sigma.data());
   try {
     driver_ = std::make_unique<PointDriver<4>>(law, start_, start.history);
@@ -221,22 +227,56 @@ CorrectTest::CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pre
   }
 }
 
+namespace {
+
+std::array<Control, 4> controls(Geometry geometry) {
+  const bool ring = geometry == Geometry::axisymmetric;
+  return {Control::stress, Control::strain, ring ? Control::stress : Control::strain, Control::strain};
+}
+
+}  // namespace
+
+void CorrectTest::shorten(double axial_strain, double duration) {
+  const double part = -(axial_strain - axial_strain_) / kSubsteps;
+  const Vector4 step(start_[0], part, geometry_ == Geometry::axisymmetric ? start_[2] : 0.0, 0.0);
+  for (int i = 0; i < kSubsteps; ++i) driver_->advance(controls(geometry_), step, duration / kSubsteps);
+}
+
+// By logarithmic strains and Kirchhoff stresses: the lateral ones are the cell pressure times the change of volume, which
+// is that of the last part; parts without axial strain make up for that.
+void CorrectTest::shorten_much(double axial_strain, double duration) {
+  constexpr int kAgain = 40;
+  constexpr double kSame = 1e-12;
+  const double part = (std::log1p(-axial_strain) - std::log1p(-axial_strain_)) / kSubsteps;
+  const auto advance = [&](double strain, double time) {
+    const double volume = std::exp(driver_->eps().head<3>().sum());
+    const Vector4 step(start_[0] * volume, strain,
+                       geometry_ == Geometry::axisymmetric ? start_[2] * volume : 0.0, 0.0);
+    driver_->advance(controls(geometry_), step, time);
+    return std::abs(std::exp(driver_->eps().head<3>().sum()) / volume - 1.0);
+  };
+  for (int i = 0; i < kSubsteps; ++i) {
+    advance(part, duration / kSubsteps);
+    if (start_[0] == 0.0) continue;
+    for (int n = 0; n < kAgain && advance(0.0, 0.0) > kSame;) ++n;
+  }
+}
+
 double CorrectTest::deviator_at(double axial_strain, double duration) {
   if (!driver_) return kUnknown;
-  const bool ring = geometry_ == Geometry::axisymmetric;
-  const std::array<Control, 4> control{Control::stress, Control::strain,
-                                       ring ? Control::stress : Control::strain, Control::strain};
-  const double part = -(axial_strain - axial_strain_) / kSubsteps;
-  const Vector4 step(start_[0], part, ring ? start_[2] : 0.0, 0.0);
   try {
-    for (int i = 0; i < kSubsteps; ++i) driver_->advance(control, step, duration / kSubsteps);
+    if (large_strain_)
+      shorten_much(axial_strain, duration);
+    else
+      shorten(axial_strain, duration);
   } catch (const AnalysisError& error) {
     driver_.reset();
     failure_ = error.what();
     return kUnknown;
   }
   axial_strain_ = axial_strain;
-  return outward(driver_->sigma()[1]) - outward(start_[1]);
+  const double nominal = large_strain_ ? driver_->sigma()[1] / (1.0 - axial_strain) : driver_->sigma()[1];
+  return outward(nominal) - outward(start_[1]);
 }
 
 // weight: at the start and the end of the stage, of which load_factor has passed.
@@ -319,6 +359,10 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     series.start_force = -sums.force[1];
     if (report.kind == ReportKind::triaxial) {
       series.specimen = start_of_specimen(model, report, solution);
+      if (model.large_strain && solution.u->cwiseAbs().maxCoeff() > 0.0)
+        series.specimen.note =
+            "large strain: the correct test takes the mesh for the shape at the start of the report, which has "
+            "moved before; its values differ by that strain";
       if (!series.specimen.note.empty()) add_message(series, series.specimen.note, "S531");
     }
     begin(series, model, report);
@@ -344,7 +388,8 @@ void Reports::begin(Series& series, const Model& model, const Report& report) {
   if (report.kind != ReportKind::triaxial) return;
   series.area = report_area(model, report);
   if (const SolidLaw* law = specimen_law(model, report))
-    series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure, series.specimen);
+    series.correct = std::make_unique<CorrectTest>(*law, model.geometry, report.cell_pressure, series.specimen,
+                                                   model.large_strain);
 }
 
 // Once, in front of the first row whose correct deviator is not known.

@@ -93,7 +93,9 @@ SpecimenStart start_of_specimen(const Model& model, const Report& report, const 
 // The frictionless test: axial strain is given, the lateral stress stays at the cell pressure.
 class CorrectTest {
  public:
-  CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure, const SpecimenStart& start = {});
+  // large_strain: the axial stress is the nominal one (force over first area), the cell pressure acts on the present side.
+  CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure, const SpecimenStart& start = {},
+              bool large_strain = false);
   // Growth of the axial stress (compression +) at an axial strain (compression +) since the start, that much time after
   // the call before; NaN from where no state is found on.
   double deviator_at(double axial_strain, double duration = 1.0);
@@ -101,7 +103,11 @@ class CorrectTest {
   const std::string& failure() const { return failure_; }
 
  private:
+  void shorten(double axial_strain, double duration);
+  void shorten_much(double axial_strain, double duration);
+
   Geometry geometry_;
+  bool large_strain_;
   Vector4 start_;
   double axial_strain_ = 0.0;
   std::unique_ptr<PointDriver<4>> driver_;  // null: the path can't be followed further

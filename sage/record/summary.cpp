@@ -214,7 +214,7 @@ void status_lines(std::string& text, const Model& model, const RunRecord& record
       "the stage\n",
       record.failed.stage + 1, model.stages.size(), record.failed.increment, record.failed.increments,
       record.failed.load_factor);
-  if (const std::string beyond = motion_words(result.motion); !beyond.empty())
+  if (const std::string beyond = motion_words(model, result.motion); !beyond.empty())
     fmt::format_to(to(text), "              {}\n", beyond);
 }
 

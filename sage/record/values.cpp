@@ -33,14 +33,14 @@ std::string left_out_words(const Model& model) {
   return text;
 }
 
-std::string motion_words(double motion) {
-  return motion > kLargeMotion
+std::string motion_words(const Model& model, double motion) {
+  return motion > kLargeMotion && !model.large_strain
              ? fmt::format("displacements reach {:.3g} times the model's size, beyond small strains", motion)
              : std::string();
 }
 
 std::string completed_words(const Model& model, double motion) {
-  const std::string beyond = motion_words(motion);
+  const std::string beyond = motion_words(model, motion);
   if (!model.left_out.empty())
     return "completed, but PARTIAL: " + left_out_words(model) + (beyond.empty() ? "" : "; " + beyond);
   return beyond.empty() ? "completed: every increment in equilibrium" : "completed, BUT " + beyond;
@@ -140,16 +140,21 @@ std::string structure_forces_per(const Model& model) {
 std::string sign_convention(const Model& model, std::string_view mark) {
   const bool ring = model.geometry == Geometry::axisymmetric;
   const UnitSystem& u = model.units;
+  const std::string large =
+      model.large_strain ? fmt::format("{}large strain: {}\n", mark, kLargeStrainWords) : std::string();
   return fmt::format(
-      "{0}units: length {1}, force {2}, stress {3}; angles in degrees\n"
-      "{0}stress and strain: compression positive; shear changes sign with them, so all four components have\n"
-      "{0}  the sign opposite to the mathematical one.  Shear strain is the engineering gamma.\n"
-      "{0}interfaces: normal stress and relative displacement positive in compression (closing); shear "
-      "likewise reversed\n"
-      "{0}displacements, loads and reactions: positive along +{4} and +{5}; reactions are what the supports do "
-      "to the mesh\n"
-      "{0}forces: {6}\n",
-      mark, u.length, u.force, u.stress, ring ? "r" : "x", ring ? "z" : "y", forces_per(model));
+             "{0}units: length {1}, force {2}, stress {3}; angles in degrees\n"
+             "{0}stress and strain: compression positive; shear changes sign with them, so all four components "
+             "have\n"
+             "{0}  the sign opposite to the mathematical one.  Shear strain is the engineering gamma.\n"
+             "{0}interfaces: normal stress and relative displacement positive in compression (closing); shear "
+             "likewise reversed\n"
+             "{0}displacements, loads and reactions: positive along +{4} and +{5}; reactions are what the "
+             "supports do "
+             "to the mesh\n"
+             "{0}forces: {6}\n",
+             mark, u.length, u.force, u.stress, ring ? "r" : "x", ring ? "z" : "y", forces_per(model)) +
+         large;
 }
 
 }  // namespace sage

@@ -35,8 +35,8 @@ inline double reaction(const Solution& solution, int dof) {
 // How a run ended that reached its end, with what the model lacks of its deck: "completed: every increment in
 // equilibrium", or "completed, but PARTIAL: left out ...".
 std::string completed_words(const Model& model, double motion);
-// Of displacements that are no small ones (RunResult::motion); empty where they are.
-std::string motion_words(double motion);
+// Of displacements that are no small ones (RunResult::motion); empty where they are, and under large strain.
+std::string motion_words(const Model& model, double motion);
 // "left out 36 beam elements; ...": empty where the model has all that its deck asks for.
 std::string left_out_words(const Model& model);
 
@@ -60,5 +60,8 @@ std::string length_word(const std::string& unit);
 
 // The sign convention in a few lines; `mark` stands before each.
 std::string sign_convention(const Model& model, std::string_view mark);
+// Which stress and strain results have then.
+inline constexpr std::string_view kLargeStrainWords =
+    "stress is Cauchy stress (force over present area), strain logarithmic, of the left stretch";
 
 }  // namespace sage

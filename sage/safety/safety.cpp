@@ -195,6 +195,8 @@ void Finder::check() const {
   const int stages = static_cast<int>(model_.stages.size());
   if (stages == 0)
     throw InputError("S260", place, "a safety factor needs a stage with loads; the deck has none");
+  if (model_.large_strain)
+    throw InputError("S553", place, "large strain: factors of safety are for small strain alone");
   if (options_.stage >= stages)
     throw InputError("S260", place,
                      fmt::format("there is no stage {}; the deck has {}", options_.stage + 1, stages));
