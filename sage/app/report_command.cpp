@@ -69,7 +69,39 @@ fs::path page_path(const ReportOptions& options, const std::vector<fs::path>& re
   return folder / (name + ".html");
 }
 
+// What was written, on the screen.
+int say_page(const fs::path& path, std::uintmax_t size) {
+  answer_file(path);
+  fmt::print("{} ({:.2f} MB)\n", path.string(), static_cast<double>(size) / 1e6);
+  return kOk;
+}
+
+std::uintmax_t save_page(const fs::path& path, report::Page made) {
+  for (const std::string& words : made.omitted) say_note(path.string(), words, "S621");
+  const std::uintmax_t size = made.html.size();
+  std::error_code error;
+  if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
+  if (error)
+    throw OutputError("S601",
+                      "the folder " + path.parent_path().string() + " can't be made: " + error.message());
+  write_file(path, std::move(made.html));
+  return size;
+}
+
+// STUDY.sweep.csv of a sweep, or another table.
+int make_table_report(const ReportOptions& options) {
+  if (options.runs.size() > 1)
+    throw UsageError("S621", "a page shows runs, or one table of cases: " + options.runs.front() +
+                                 " and others don't go together");
+  const fs::path table(options.runs.front());
+  keep_input(table);
+  const fs::path path = page_path(options, {table});
+  return say_page(path, save_page(path, report::make_table_page(table)));
+}
+
 int make_report(const ReportOptions& options, const Catalogue& catalogue) {
+  if (std::ranges::any_of(options.runs, [](const std::string& run) { return run.ends_with(".csv"); }))
+    return make_table_report(options);
   if (options.runs.size() > kMostRuns)
     throw UsageError("S621", fmt::format("{} runs: a page shows at most {}", options.runs.size(), kMostRuns));
   std::vector<fs::path> results;
@@ -78,10 +110,7 @@ int make_report(const ReportOptions& options, const Catalogue& catalogue) {
   page.room = static_cast<std::size_t>(options.megabytes * 1e6);
   const fs::path path = page_path(options, results);
   for (const fs::path& file : results) keep_input(file);
-  const std::uintmax_t size = write_report_page(results, path, page, catalogue);
-  answer_file(path);
-  fmt::print("{} ({:.2f} MB)\n", path.string(), static_cast<double>(size) / 1e6);
-  return kOk;
+  return say_page(path, write_report_page(results, path, page, catalogue));
 }
 
 constexpr const char* kReportExamples =
@@ -129,17 +158,9 @@ std::uintmax_t write_report_page(const std::vector<fs::path>& results, const fs:
   for (const fs::path& file : results) runs.push_back(std::make_unique<RunOnPage>(file, catalogue));
   expect_fields(options.fields, runs);
   std::vector<report::PageRun> parts;
-  for (std::size_t i = 0; i < runs.size(); ++i) parts.push_back({results[i], runs[i]->stored, runs[i]->model});
-  report::Page made = report::make_page(parts, options);
-  for (const std::string& words : made.omitted) say_note(page.string(), words, "S621");
-  const std::uintmax_t size = made.html.size();
-  std::error_code error;
-  if (page.has_parent_path()) fs::create_directories(page.parent_path(), error);
-  if (error)
-    throw OutputError("S601",
-                      "the folder " + page.parent_path().string() + " can't be made: " + error.message());
-  write_file(page, std::move(made.html));
-  return size;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    parts.push_back(report::page_run(results[i], runs[i]->stored, runs[i]->model));
+  return save_page(page, report::make_page(parts, options));
 }
 
 Command report_command(CLI::App& parser, const Catalogue& catalogue) {
@@ -149,7 +170,8 @@ Command report_command(CLI::App& parser, const Catalogue& catalogue) {
       .add_option(
           "RUN", options->runs,
           "result files (STEM.h5 of sagefe run DECK --result), the same without .h5, or folders with one; "
-          "tables, listing and pictures of the run are read where they lie beside it")
+          "or STUDY.sweep.csv of sagefe sweep; tables, listing and pictures of the run are read where they lie "
+          "beside it")
       ->required();
   parser.add_option("-o,--output", options->folder, "folder of the page (default: that of the first run)");
   parser.add_option("--name", options->name, "name of the page (default: from those of the runs)")

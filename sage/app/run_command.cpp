@@ -5,6 +5,8 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -26,6 +28,7 @@
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
 #include "sage/record/sketch.hpp"
+#include "sage/report/live_page.hpp"
 
 namespace sage::app {
 
@@ -152,28 +155,43 @@ int compute_factors(const RunRequest& request, const Catalogue& catalogue, Json&
   return worst;
 }
 
+// Empty where it can't be read, which reading the deck will say.
+std::string text_of(const std::string& deck) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(deck, error)) return {};
+  std::ifstream in(deck, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// STEM.html while the run goes, which must not outlive what is returned, and of the finished run.
+std::unique_ptr<report::LivePage> ask_for_page(RunRequest& request, const Catalogue& catalogue) {
+  const std::filesystem::path result = request.output.folder / (stem_of(request) + ".h5");
+  auto live = std::make_unique<report::LivePage>(result, request.deck, text_of(request.deck));
+  request.watch = live.get();
+  request.output.result = true;
+  request.write_page = [&catalogue](const std::filesystem::path& file) {
+    const std::filesystem::path page = std::filesystem::path(file).replace_extension(".html");
+    write_report_page({file}, page, {}, catalogue);
+    return page;
+  };
+  return live;
+}
+
 // One deck's failure does not keep the next from running.  found: what the answer says of it, with --json.
 int compute_deck(const RunOptions& options, const std::string& deck, const Catalogue& catalogue, Json& found) {
   RunRequest request = options.request;
   request.deck = deck;
   request.output.tables = tables_of(options.tables);
-  if (options.report) {
-    request.output.result = true;
-    request.write_page = [&catalogue](const std::filesystem::path& result) {
-      std::filesystem::path page = result;
-      page.replace_extension(".html");
-      write_report_page({result}, page, {}, catalogue);
-      return page;
-    };
-  }
+  std::unique_ptr<report::LivePage> live;
+  if (options.report && !options.converge.asked()) live = ask_for_page(request, catalogue);
   for (const std::string& name : options.without)
     for (const SkipName& skip : kSkipNames)
       if (name == skip.name || name == "all") request.skips.*skip.flag = false;
   return guarded(deck, [&] {
     if (options.converge.asked()) {
       const OutputOptions& output = request.output;
-      if (output.nodes || output.points || output.vtu || output.msh || output.result || output.error ||
-          !output.states.empty() || !output.pictures.empty() || request.restart)
+      if (output.nodes || output.points || output.vtu || output.msh || output.result || options.report ||
+          output.error || !output.states.empty() || !output.pictures.empty() || request.restart)
         say_note(deck,
                  "--converge writes its table only; the options of its last line give that mesh again, with "
                  "all outputs",

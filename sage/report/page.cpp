@@ -29,16 +29,11 @@ std::string title_of(const std::vector<PageRun>& runs) {
   return clean(title);
 }
 
-}  // namespace
-
-Page make_page(const std::vector<PageRun>& runs, const PageOptions& options) {
-  Page page;
-  Json json = {{"sagefe", SAGE_VERSION}, {"format", 1}, {"runs", Json::array()}};
-  for (const PageRun& run : runs) json["runs"].push_back(run_json(run, options, page.omitted));
+std::string html_of(const std::string& title, const Json& json) {
   // A policy that lets nothing in from outside: scripts and styles of this file alone, pictures that it holds.
   constexpr const char* kPolicy =
       "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:";
-  page.html = fmt::format(
+  std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -46,11 +41,40 @@ Page make_page(const std::vector<PageRun>& runs, const PageOptions& options) {
       "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n"
       "<noscript>This page shows results with the help of JavaScript, which is switched off.</noscript>\n"
       "<main id=\"page\"></main>\n<script type=\"application/json\" id=\"data\">",
-      kPolicy, xml_text(title_of(runs)), bundle_style());
-  page.html += text_for_script(json);
-  page.html += "</script>\n<script>\n";
-  page.html += bundle_script();
-  page.html += "</script>\n</body>\n</html>\n";
+      kPolicy, xml_text(title), bundle_style());
+  html += text_for_script(json);
+  html += "</script>\n<script>\n";
+  html += bundle_script();
+  html += "</script>\n</body>\n</html>\n";
+  return html;
+}
+
+}  // namespace
+
+PageRun page_run(const std::filesystem::path& file, const StoredResult& stored, const Model& model) {
+  PageRun run{file, model, stored.deck_name(), stored.source().deck, stored.failure()};
+  for (const StoredResult::State& state : stored.states()) run.states.push_back({state.stage, state.increment});
+  run.frame = [&stored, &model](std::size_t state) { return stored.frame(model, state); };
+  return run;
+}
+
+Page make_page(const std::vector<PageRun>& runs, const PageOptions& options) {
+  Page page;
+  Json json = {{"sagefe", SAGE_VERSION}, {"format", 1}, {"runs", Json::array()}};
+  for (const PageRun& run : runs) json["runs"].push_back(run_json(run, options, page.omitted));
+  page.html = html_of(title_of(runs), json);
+  return page;
+}
+
+Page make_table_page(const std::filesystem::path& table) {
+  Page page;
+  const std::string name = table.stem().string();
+  const Json json = {{"sagefe", SAGE_VERSION},
+                     {"format", 1},
+                     {"runs", Json::array()},
+                     {"name", clean(name)},
+                     {"table", table_of_cases(table, page.omitted)}};
+  page.html = html_of(clean(name), json);
   return page;
 }
 

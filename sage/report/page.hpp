@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,12 +11,22 @@
 
 namespace sage::report {
 
-// A run by its result file and the model that this file gives.  Both outlive the page.
+// A run and its states.
 struct PageRun {
-  std::filesystem::path file;  // STEM.h5; tables, listing and pictures of the run lie beside it
-  const StoredResult& stored;
-  const Model& model;
+  struct State {
+    int stage = 0, increment = 0;  // stage from 0
+  };
+
+  std::filesystem::path file;   // STEM.h5; tables, listing and pictures of the run lie beside it
+  const Model& model;           // outlives the page
+  std::string deck_name, deck;  // deck: its characters
+  std::string failure{};        // why it ended without equilibrium; empty = it has not
+  bool goes_on = false;         // is being computed
+  std::vector<State> states{};
+  std::function<Frame(std::size_t)> frame{};  // by the place in `states`
 };
+// Of a result file and the model that it gives.  Both outlive the page.
+PageRun page_run(const std::filesystem::path& file, const StoredResult& stored, const Model& model);
 
 struct PageOptions {
   std::vector<std::string> fields =
@@ -35,5 +46,8 @@ std::vector<std::string> page_fields(const Model& model);
 
 // Of one run, or several of which the page shows two side by side.  Throws InputError where a file is damaged.
 Page make_page(const std::vector<PageRun>& runs, const PageOptions& options = {});
+
+// Of a table of cases (STUDY.sweep.csv): points over any column, and the rows.  Throws InputError.
+Page make_table_page(const std::filesystem::path& table);
 
 }  // namespace sage::report

@@ -60,17 +60,23 @@ Json table_json(const CsvTable& table, const std::string& rest) {
   return {{"name", clean(rest)}, {"title", clean(table.title())}, {"columns", std::move(columns)}};
 }
 
+void note_rows(const std::string& name, const CsvTable& table, std::vector<std::string>& omitted) {
+  if (table.lines.size() > kMostRows)
+    omitted.push_back(
+        fmt::format("{} has {} rows: the page has the first {}", name, table.lines.size(), kMostRows));
+}
+
 Json tables_json(const PageRun& run, std::vector<std::string>& omitted) {
   Json tables = Json::array();
   const std::string stem = run.file.stem().string();
-  for (const fs::path& file : beside(run.file, ".csv")) {
-    const std::string name = file.filename().string(), rest = name.substr(stem.size());
+  const std::string ending = run.goes_on ? ".csv.partial" : ".csv";
+  for (const fs::path& file : beside(run.file, ending)) {
+    const std::string name = file.filename().string();
+    const std::string rest = name.substr(stem.size(), name.size() - stem.size() - ending.size() + 4);
     if (of_places(rest)) continue;
     try {
       const CsvTable table = read_csv_table(file);
-      if (table.lines.size() > kMostRows)
-        omitted.push_back(
-            fmt::format("{} has {} rows: the page has the first {}", name, table.lines.size(), kMostRows));
+      note_rows(name, table, omitted);
       if (!table.lines.empty()) tables.push_back(table_json(table, rest.substr(1, rest.size() - 5)));
     } catch (const InputError& error) {
       omitted.push_back(std::string(error.what()));
@@ -130,7 +136,7 @@ Json messages_of_listing(const fs::path& listing) {
 }
 
 Json messages_json(const PageRun& run) {
-  const fs::path listing = fs::path(run.file).replace_extension(".lst");
+  const fs::path listing = fs::path(run.file).replace_extension(run.goes_on ? ".lst.partial" : ".lst");
   std::error_code error;
   if (fs::is_regular_file(listing, error)) return messages_of_listing(listing);
   Json messages = Json::array();
@@ -140,12 +146,21 @@ Json messages_json(const PageRun& run) {
   return messages;
 }
 
+std::string words_under_way(const PageRun& run) {
+  if (run.states.empty()) return "being computed";
+  return fmt::format(
+      "being computed: this page is of stage {}, increment {}; load it again for the present state",
+      run.states.back().stage + 1, run.states.back().increment);
+}
+
 Json summary_json(const PageRun& run) {
   const Model& model = run.model;
   Json rows = Json::array();
   const auto add = [&](const char* name, const std::string& text) { rows.push_back({name, clean(text)}); };
-  const std::string& failure = run.stored.failure();
-  add("status", failure.empty() ? completed_words(model, 0.0) : "not converged: " + failure);
+  const std::string& failure = run.failure;
+  add("status", run.goes_on       ? words_under_way(run)
+                : failure.empty() ? completed_words(model, 0.0)
+                                  : "not converged: " + failure);
   long elements = 0, points = 0;
   for (const Group& group : model.groups) {
     elements += group.elements();
@@ -154,19 +169,19 @@ Json summary_json(const PageRun& run) {
   add("geometry", model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain");
   add("mesh", fmt::format("{} nodes, {} elements, {} integration points, {} unknowns", model.mesh.nodes(),
                           elements, points, DofMap(model).dofs()));
-  const auto& states = run.stored.states();
+  const auto& states = run.states;
   add("path", fmt::format("{} of {} stages, {} states kept", states.empty() ? 0 : states.back().stage + 1,
                           model.stages.size(), states.size()));
   add("units", fmt::format("{}, {}, {}; forces {}", model.units.length, model.units.force, model.units.stress,
                            forces_per(model)));
   add("signs", "stress and strain compression positive; displacements and forces along the axes");
-  add("deck", run.stored.deck_name());
+  add("deck", run.deck_name);
   return rows;
 }
 
 // The deck, or where it is long the lines around those that messages name.
 Json deck_json(const PageRun& run, std::vector<std::string>& omitted) {
-  const std::string& deck = run.stored.source().deck;
+  const std::string& deck = run.deck;
   if (deck.size() <= kMostDeck) return clean(deck);
   const std::size_t end = deck.rfind('\n', kMostDeck);
   omitted.push_back(
@@ -176,10 +191,23 @@ Json deck_json(const PageRun& run, std::vector<std::string>& omitted) {
 
 }  // namespace
 
+Json table_of_cases(const std::filesystem::path& file, std::vector<std::string>& omitted) {
+  const CsvTable table = read_csv_table(file);
+  note_rows(file.filename().string(), table, omitted);
+  Json json = table_json(table, file.stem().string());
+  json["words"] = Json::array();
+  for (const CsvTable::Word& word : table.words) {
+    const auto row = std::ranges::lower_bound(table.lines, word.line) - table.lines.begin();
+    if (row < static_cast<std::ptrdiff_t>(kMostRows))
+      json["words"].push_back({row, word.column, clean(word.text)});
+  }
+  return json;
+}
+
 std::vector<std::string> add_papers(const PageRun& run, Json& json) {
   std::vector<std::string> omitted;
   json["name"] = clean(run.file.stem().string());
-  json["failed"] = !run.stored.failure().empty();
+  json["failed"] = !run.failure.empty();
   json["summary"] = summary_json(run);
   json["tables"] = tables_json(run, omitted);
   json["pictures"] = pictures_json(run, omitted);

@@ -14,4 +14,7 @@ std::vector<std::string> add_states(const PageRun& run, const PageOptions& optio
 // What lies beside the result file and in it: summary, tables, messages, pictures, deck.
 std::vector<std::string> add_papers(const PageRun& run, Json& json);
 
+// A table with its words, of the first rows.
+Json table_of_cases(const std::filesystem::path& file, std::vector<std::string>& omitted);
+
 }  // namespace sage::report

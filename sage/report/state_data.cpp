@@ -25,7 +25,11 @@ constexpr std::string_view kOrder[] = {"displacement",   "stress",           "he
                                        "total_stress"};
 
 // What the script makes of `stress` itself, and what tables of elements and increments are for.
-bool shown(const FieldEntry& field) {
+bool shown(const Model& model, const FieldEntry& field) {
+  for (const UnknownField& unknown : model.unknowns)
+    if (field.name == unknown.name + "_" + unknown.load || field.name == unknown.name + "_reaction" ||
+        (unknown.turns && field.name == unknown.name))
+      return false;
   constexpr std::string_view kDerived[] = {"mean_stress",          "deviator",        "principal_stress",
                                            "stress_difference",    "principal_angle", "principal_direction_1",
                                            "principal_direction_3"};
@@ -60,7 +64,7 @@ using ShownFields = std::vector<ShownField>;
 ShownFields fields_to_show(const Model& model, const FieldTable& table, const std::vector<std::string>& asked) {
   ShownFields list;
   const auto add = [&](const FieldEntry* field, int component) {
-    if (field == nullptr || !shown(*field) || !has_values(model, *field)) return;
+    if (field == nullptr || !shown(model, *field) || !has_values(model, *field)) return;
     auto there = std::ranges::find(list, field, &ShownField::entry);
     if (there == list.end()) there = list.insert(list.end(), ShownField{field});
     for (std::size_t c = 0; c < field->size(); ++c)
@@ -106,9 +110,9 @@ struct Plan {
 };
 
 // The last of each stage.
-std::vector<std::size_t> ends_of_stages(const StoredResult& stored) {
+std::vector<std::size_t> ends_of_stages(const PageRun& run) {
   std::vector<std::size_t> ends;
-  const auto& states = stored.states();
+  const auto& states = run.states;
   for (std::size_t i = 0; i < states.size(); ++i)
     if (i + 1 == states.size() || states[i + 1].stage != states[i].stage) ends.push_back(i);
   return ends;
@@ -133,7 +137,7 @@ class Planner {
     const std::size_t room = options.room > 0 ? options.room : std::max(kRoom, kRoomOfElement * elements);
     room_ = room > used ? room - used : 0;
     plan_.fields = std::move(fields);
-    for (std::size_t i = 0; i < run.stored.states().size(); ++i) plan_.states.push_back(i);
+    for (std::size_t i = 0; i < run.states.size(); ++i) plan_.states.push_back(i);
     if (points > options.most_points) {
       plan_.points = false;
       say(fmt::format(
@@ -146,10 +150,10 @@ class Planner {
   Plan plan(bool fields_were_asked) {
     const std::size_t kept =
         fields_were_asked ? plan_.fields.size() : std::min<std::size_t>(plan_.fields.size(), 4);
-    if (plan_.states.size() > kMostStates) keep_states(ends_of_stages(run_.stored), "ends of stages");
+    if (plan_.states.size() > kMostStates) keep_states(ends_of_stages(run_), "ends of stages");
     if (!fits()) plan_.precision = Precision::fine;
     keep_fields(kept);
-    if (!fits()) keep_states(ends_of_stages(run_.stored), "ends of stages");
+    if (!fits()) keep_states(ends_of_stages(run_), "ends of stages");
     if (!fits()) keep_states({plan_.states.back()}, "last state");
     if (!fits()) plan_.precision = Precision::coarse;
     keep_fields(2);
@@ -324,7 +328,7 @@ std::vector<std::string> page_fields(const Model& model) {
   std::vector<std::string> names;
   const FieldTable table = fields_of(model);
   for (const FieldEntry& field : table.rows())
-    if (shown(field) && has_values(model, field)) {
+    if (shown(model, field) && has_values(model, field)) {
       names.push_back(field.name);
       for (std::size_t c = 0; c < field.size() && field.size() > 1; ++c)
         names.push_back(field.name + "_" + field.components[c].name);
@@ -339,15 +343,15 @@ std::vector<std::string> add_states(const PageRun& run, const PageOptions& optio
   Json fields = Json::array(), states = Json::array();
   for (const ShownField& field : plan.fields) fields.push_back(field_json(run.model, field));
   Envelope envelope;
-  const std::vector<std::size_t> ends = ends_of_stages(run.stored);
+  const std::vector<std::size_t> ends = ends_of_stages(run);
   const bool structures = !end_quantities(run.model).empty();
-  for (std::size_t i = 0; i < run.stored.states().size(); ++i) {
+  for (std::size_t i = 0; i < run.states.size(); ++i) {
     const bool wanted = std::ranges::binary_search(plan.states, i);
     const bool of_stage = structures && std::ranges::binary_search(ends, i);
     if (!wanted && !of_stage) continue;
-    const Frame frame = run.stored.frame(run.model, i);
-    const bool failed = i + 1 == run.stored.states().size() && !run.stored.failure().empty();
-    if (of_stage && !failed) envelope.add(run.model, frame.report().stage, frame.view());
+    const Frame frame = run.frame(i);
+    const bool open = i + 1 == run.states.size() && (run.goes_on || !run.failure.empty());
+    if (of_stage && !open) envelope.add(run.model, frame.report().stage, frame.view());
     if (!wanted) continue;
     states.push_back(state_json(run.model, frame, plan));
     if (structures) states.back()["ends"] = ends_json(run.model, frame.view());

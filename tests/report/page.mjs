@@ -28,6 +28,8 @@ sagefe("run", deck("chapter7/dp_285"), "-q", "--report", "--points", "--states",
 fs.copyFileSync(deck("chapter7/dp_285"), path.join(work, "b_bar.dat"));
 sagefe("run", "b_bar.dat", "-q", "--result", "--formulation", "2");
 sagefe("run", "script.dat", "-q", "--report");
+fs.writeFileSync(path.join(work, "out", "study.sweep.csv"), `# ${title}\ncase,nu[-],ratio[-],status,reason\n1,0.2,1.5,ok,\n2,0.3,1.25,ok,${title.replace(/[",]/g, "")}\n3,0.4,,failed,p2.html\n`);
+sagefe("report", "out/study.sweep.csv");
 sagefe("report", "out/dp_285.h5", "out/b_bar", "--name", "two");
 
 // Rows of a table by their named columns.
@@ -53,7 +55,7 @@ async function open(name, hash = "") {
 const probe = (page, run = 0) => page.evaluate((i) => {
   const box = document.querySelectorAll(".probe")[i];
   return {element: Number(box.dataset.element), point: Number(box.dataset.point), node: Number(box.dataset.node), text: box.textContent,
-          values: Object.fromEntries([...box.querySelectorAll("dd")].map((d) => [d.dataset.column, [Number(d.dataset.value), d.textContent]]))};
+          values: Object.fromEntries([...box.querySelectorAll("dl:not(.line) dd")].map((d) => [d.dataset.column, [Number(d.dataset.value), d.textContent]]))};
 }, run);
 // A place of the mesh in pixels of the window.
 const screen = (page, run, x, y) => page.evaluate(([i, a, b]) => {
@@ -142,6 +144,17 @@ async function files_and_paper(page) {
   assert.equal(rows.length, wanted.length);
   rows.forEach((v, i) => close(v, wanted[i], "curve"));
   assert.ok((await download(card.getByRole("button", {name: "SVG"}))).toString().includes("relative_force"));
+  // On paper one canvas has it all, in colours; afterwards both are back.
+  const paper = await page.evaluate(() => {
+    window.dispatchEvent(new Event("beforeprint"));
+    const seen = [...document.querySelectorAll(".stage canvas")].filter((c) => !c.hidden), c = seen[0], data = c.getContext("2d").getImageData(0, 0, c.width, c.height).data;
+    const colours = new Set();
+    for (let i = 0; i < data.length; i += 4) if (data[i + 3] === 255) colours.add(data[i] * 65536 + data[i + 1] * 256 + data[i + 2]);
+    const found = {canvases: seen.length, colours: colours.size, closed: document.querySelectorAll("details:not([open])").length};
+    window.dispatchEvent(new Event("afterprint"));
+    return {...found, after: [...document.querySelectorAll(".stage canvas")].filter((one) => !one.hidden).length};
+  });
+  assert.ok(paper.canvases === 1 && paper.colours > 6 && paper.closed === 0 && paper.after === 2, JSON.stringify(paper));
   const pdf = await page.pdf({format: "A4"});
   assert.ok(pdf.subarray(0, 5).toString() === "%PDF-" && pdf.length > 60000, `${pdf.length} bytes of PDF`);
 }
@@ -205,6 +218,16 @@ async function names_stay_text() {
   await page.close();
 }
 
+async function table_of_cases() {
+  const page = await open("study.sweep.html"), [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", {name: "CSV"}).click()]);
+  const rows = fs.readFileSync(await file.path(), "utf8").trim().split("\n").slice(1).map((r) => r.split(",").slice(1, 3).map(Number));
+  assert.deepEqual(rows, [[0.2, 1.5], [0.3, 1.25]]);
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+  assert.equal(await page.locator("#rows tbody tr").count(), 3);
+  assert.equal(await page.locator("#rows a").getAttribute("href"), "p2.html");
+  await page.close();
+}
+
 try {
   const page = await probes_equal_the_tables();
   await keyboard_alone(page);
@@ -212,8 +235,9 @@ try {
   await linked_views();
   await without_webgl();
   await names_stay_text();
+  await table_of_cases();
   assert.deepEqual(complaints, []);
-  console.log("7 passed, 0 failed");
+  console.log("8 passed, 0 failed");
 } finally {
   await browser.close();
 }

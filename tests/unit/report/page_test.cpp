@@ -15,6 +15,7 @@
 #include "sage/record/csv_table.hpp"
 #include "sage/report/bundle.hpp"
 #include "sage/report/encode.hpp"
+#include "sage/report/live_page.hpp"
 #include "sage/report/page.hpp"
 #include "tests/support/scratch_folder.hpp"
 
@@ -83,7 +84,7 @@ struct Finished {
   std::unique_ptr<StoredResult> stored;
   std::unique_ptr<Model> model;
 
-  PageRun run() const { return {file, *stored, *model}; }
+  PageRun run() const { return page_run(file, *stored, *model); }
 };
 
 // Of the deck, with all tables beside the result file.
@@ -265,6 +266,33 @@ TEST(ReportPage, NamesOfDecksAreNoMarkup) {
   EXPECT_EQ(data_of(page)["runs"][0]["title"], title);
   EXPECT_NE(page.html.find("<title>&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;&amp;"),
             std::string::npos);
+}
+
+// After every output increment of a run that goes on; the last of them has the values of the finished run.
+TEST(ReportPage, IsWrittenWhileTheRunGoesOn) {
+  const fs::path folder = test::scratch_folder("report_live");
+  const std::string deck = shipped("structures/braced_cut/deck.dat");
+  std::ofstream(folder / "live.dat", std::ios::binary) << deck;
+  LivePage live(folder / "live.h5", "live.dat", deck, -1.0);
+  app::RunRequest request;
+  request.deck = (folder / "live.dat").string();
+  request.quiet = true;
+  request.output.folder = folder;
+  request.watch = &live;
+  const Catalogue catalogue = app::full_catalogue();
+  ASSERT_EQ(app::run_deck(request, catalogue).exit_code, 0);
+  const Json done = data_of(make_page({finished("braced", deck).run()}))["runs"][0];
+  EXPECT_EQ(live.written(), static_cast<int>(done["states"].size()));
+  std::ifstream in(folder / "live.html", std::ios::binary);
+  const Json run = data_of({{std::istreambuf_iterator<char>(in), {}}, {}})["runs"][0];
+  ASSERT_TRUE(run["summary"][0][1].get<std::string>().starts_with("being computed: this page is of stage 5"));
+  EXPECT_EQ(run["states"].back()["values"], done["states"].back()["values"]);
+  EXPECT_EQ(run["deck"], deck);
+  // It is no result: no list names it.
+  std::ifstream list(folder / "live.files");
+  const std::string names{std::istreambuf_iterator<char>(list), {}};
+  EXPECT_NE(names.find("live.lst"), std::string::npos);
+  EXPECT_EQ(names.find("live.html"), std::string::npos);
 }
 
 // What has no room is named.

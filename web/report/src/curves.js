@@ -52,12 +52,12 @@ export class Chart {
       const line = new Path2D(), [xs, ys] = u.data[s];
       for (let i = 0; i < xs.length; ++i) {
         const x = u.valToPos(xs[i], "x", true), y = u.valToPos(ys[i], "y", true);
-        if (i) line.lineTo(x, y);
+        if (i && !this.options.scatter) line.lineTo(x, y);
         else line.moveTo(x, y);
       }
       return {stroke: line, fill: null, clip: null, band: null, gaps: null, flags: 1};
     };
-    const few = this.series.length * Math.max(1, ...this.series.map((s) => s.x.length)) < 150;
+    const few = this.options.scatter || this.series.length * Math.max(1, ...this.series.map((s) => s.x.length)) < 150;
     const points = (u, s) => {
       const [xs, ys] = u.data[s], c = u.ctx;
       c.save();
@@ -70,7 +70,7 @@ export class Chart {
       c.restore();
     };
     const axis = (label, log) => ({stroke: ink, grid: {stroke: faint, width: 1}, ticks: {stroke: faint, width: 1}, label, labelSize: 20, labelFont: "12px system-ui", font: "11px system-ui",
-      ...(log ? {} : {values: (u, ticks) => ticks.map((v) => text_of(v, 7))})});
+      values: (u, ticks) => ticks.map((v) => (!log ? text_of(v, 7) : v > 0 && Math.abs(Math.log10(v) - Math.round(Math.log10(v))) < 1e-6 ? text_of(v, 3) : ""))});
     const [rx, ry] = [this.range("x"), this.range("y")];
     this.plot = new uPlot({
       mode: 2, width: this.box.clientWidth || 460, height: this.options.height || 260, legend: {show: false}, pxAlign: 0,
@@ -162,7 +162,12 @@ export class Chart {
       pen.text(left - 6, py(v) + 4, text_of(v, 6), ink, "end", 11);
     }
     pen.line([[left, top], [left, height - bottom], [width - right, height - bottom]], ink, 1.2);
-    this.series.forEach((s, i) => s.x.length && pen.line(s.x.map((x, k) => [px(x), py(s.y[k])]), this.colour(i), 1.8, s.dash || []));
+    this.series.forEach((s, i) => {
+      if (!s.x.length) return;
+      const places = s.x.map((x, k) => [px(x), py(s.y[k])]);
+      if (!this.options.scatter) return pen.line(places, this.colour(i), 1.8, s.dash || []);
+      for (const [x, y] of places) pen.area([[x - 2, y - 2], [x + 2, y - 2], [x + 2, y + 2], [x - 2, y + 2]], this.colour(i));
+    });
     this.series.forEach((s, i) => pen.text(left + 10, top + 14 + 15 * i, s.label, this.colour(i), "start", 11));
     pen.text(width / 2, height - 10, this.options.x, ink, "middle", 12);
     pen.text(8, 18, this.options.y, ink, "start", 12);
@@ -189,6 +194,10 @@ function label_of(columns) {
 // What a table is best drawn as: names of x and y, and whether y is on a logarithmic axis.
 function usual(table) {
   const has = (name) => table.columns.some((c) => c.name === name), names = table.columns.map((c) => c.name);
+  if (table.cases) {  // of a sweep: what varies, then what was collected
+    const numbers = table.columns.filter((c) => !["case", "same_as", "warnings"].includes(c.name) && new Set(c.values.filter(Number.isFinite)).size > 1);
+    return {x: numbers.length ? numbers[0].name : names[0], y: numbers.length ? [numbers[numbers.length - 1].name] : names.slice(0, 1)};
+  }
   if (has("axial_strain")) return {x: "axial_strain", y: ["measured_deviator", "correct_deviator"].filter(has)};
   if (has("degree_of_consolidation")) return {x: "time", y: ["degree_of_consolidation"]};
   if (has("relative_force")) return {x: "row", y: ["relative_force"], log_y: true};
@@ -213,7 +222,7 @@ export class TableCard {
     this.y = start.y.length ? start.y : [columns[columns.length - 1].name];
     this.log_y = !!start.log_y;
     this.log_x = false;
-    this.chart = new Chart(page, {name, x: "", y: ""});
+    this.chart = new Chart(page, {name, x: "", y: "", scatter: !!tables[0].table.cases, height: tables[0].table.cases ? 420 : 260});
     this.legend = h("div");
     const names = columns.map((c) => c.name);
     this.log_y_box = check("log y", this.log_y, (v) => { this.log_y = v; this.draw(); });

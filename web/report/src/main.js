@@ -1,4 +1,5 @@
 // The page: sections of one or more runs, two of which stand side by side.
+import {numbers} from "./decode.js";
 import {Chart, TableCard} from "./curves.js";
 import {button, check, file_name, h, save, select, table} from "./dom.js";
 import {default_choice, nice_step, text_of} from "./fields.js";
@@ -270,8 +271,7 @@ class Page {
     list.value = view.state;
     if (!this.settings.fixed) this.new_range();
     this.redraw();
-    if (view.probe_place && !view.readout.dataset.element) view.show_probe(view.probe_place);
-    else if (view.probe_place) view.show_probe(view.probe_place);
+    if (view.probe_place) view.show_probe(view.probe_place);
     this.draw_structures();
     if (this.cut_line) this.draw_cut();
   }
@@ -360,22 +360,63 @@ class Page {
   }
 }
 
-const page = new Page();
+// A table of cases: points over any column, and the rows.  A row's file, where it names one, is a link.
+class TablePage {
+  constructor() {
+    const packed = data.table, run = {name: data.name, title: packed.title};
+    const own = {...packed, cases: true, columns: packed.columns.map((c) => ({...c, values: numbers(c.values)}))};
+    this.runs = [run];
+    this.cards = [new TableCard(this, data.name, [{run, table: own}])];
+    const count = own.columns.length ? own.columns[0].values.length : 0, shown = Math.min(count, 2000), words = new Map();
+    for (const [row, column, text] of own.words) words.set(row * own.columns.length + column, text);
+    const rows = Array.from({length: shown}, (_, r) => own.columns.map((c, k) => {
+      const word = words.get(r * own.columns.length + k);
+      return word !== undefined ? (/^[^:?#\s]+\.html$/.test(word) ? h("a", {href: word}, word) : word) : text_of(c.values[r], 8);
+    }));
+    document.getElementById("page").replaceChildren(
+      h("header", {}, h("h1", {}, packed.title || data.name), h("nav", {}, button("Dark or light", "change between the dark and the light look", () => Page.prototype.change_look.call(this)), button("Print", "print the page, or save it as PDF", () => window.print()))),
+      h("section", {id: "cases"}, h("h2", {}, `${count} cases`), h("div", {class: "cards wide"}, this.cards[0].root)),
+      h("section", {id: "rows"}, h("h2", {}, "Table"), shown < count ? h("p", {}, `The first ${shown} of ${count} rows.`) : null,
+        h("div", {class: "wide-table"}, table(own.columns.map((c) => c.name + (c.unit && c.unit !== "-" ? ` [${c.unit}]` : "")), rows, {class: "list"}))),
+      h("footer", {}, `Written by sagefe ${data.sagefe}. This file holds all its data and makes no request.`));
+    this.views = [];
+    this.settings = {};
+    this.repaint();
+  }
+  repaint() { for (const card of this.cards) card.draw(); }
+  step() {}
+  chosen() {}
+}
+
+const page = data.table ? new TablePage() : new Page();
 window.sagefe = {page, save, file_name};
 let resized;
 window.addEventListener("resize", () => {
   clearTimeout(resized);
   resized = setTimeout(() => page.repaint(), 150);
 });
-// On paper: light, and everything open.
+// On paper: light, as wide as a sheet, and everything open.
+let before_print = null;
 window.addEventListener("beforeprint", () => {
-  page.look_before = document.documentElement.dataset.look || "";
-  document.documentElement.dataset.look = "light";
+  const root = document.documentElement, closed = [...document.querySelectorAll("details:not([open])")];
+  before_print = {look: root.dataset.look, closed, cameras: page.views.map((v) => ({...v.camera})), widths: page.views.map((v) => v.drawing_width)};
+  for (const one of closed) one.open = true;
+  root.dataset.look = "light";
+  root.classList.add("paper");
+  // What fitted the screen fits the sheet.
+  page.views.forEach((v, i) => { if (i === 0 || !page.settings.linked) v.camera.zoom *= v.drawing_width / before_print.widths[i]; });
   page.repaint();
+  for (const view of page.views) view.to_paper();
 });
 window.addEventListener("afterprint", () => {
-  if (page.look_before) document.documentElement.dataset.look = page.look_before;
-  else delete document.documentElement.dataset.look;
+  if (!before_print) return;
+  const root = document.documentElement;
+  for (const one of before_print.closed) one.open = false;
+  if (before_print.look) root.dataset.look = before_print.look;
+  else delete root.dataset.look;
+  root.classList.remove("paper");
+  page.views.forEach((v, i) => { Object.assign(v.camera, before_print.cameras[i]); v.from_paper(); });
+  before_print = null;
   page.repaint();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => page.repaint());

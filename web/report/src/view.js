@@ -156,10 +156,43 @@ export class View {
   show_probe(place) {
     this.probe_place = place;
     const found = this.run.hit(this.state, this.scale, ...place, this.choice);
-    if (!found) return this.show_rows([], "nothing is there");
+    if (!found) {
+      const lines = this.lines_near(place);
+      for (const name of ["element", "point", "node"]) delete this.readout.dataset[name];
+      return this.show_rows([], lines.length ? "" : "nothing is there", lines);
+    }
     const {group, element} = found, home = this.undisplaced(group, element, place);
     const node = this.run.nearest_node(group, element, this.state, this.scale, ...place);
-    this.show_found(this.run.probe_element(this.state, group, element, home), node, found.value);
+    this.show_found(this.run.probe_element(this.state, group, element, home), node, found.value, this.lines_near(place));
+  }
+  // Interfaces and structures within some pixels of a place: {words, rows} each.
+  lines_near(place) {
+    const run = this.run, at = this.to_screen(...place), list = [];
+    for (const group of run.groups) {
+      if (group.area || !group.line || !run.active(this.state, group)) continue;
+      let best = null, least = 7;
+      for (let e = 0; e < group.elements; ++e) {
+        const line = group.line.map((i) => this.node_at(group.node(e, i)));
+        for (let i = 0; i < Math.max(1, line.length - 1); ++i) {
+          const a = line[i], b = line[Math.min(i + 1, line.length - 1)], dx = b[0] - a[0], dy = b[1] - a[1];
+          const t = Math.min(1, Math.max(0, ((at[0] - a[0]) * dx + (at[1] - a[1]) * dy) / (dx * dx + dy * dy || 1)));
+          const d = Math.hypot(a[0] + t * dx - at[0], a[1] + t * dy - at[1]);
+          if (d < least) [least, best] = [d, {element: e, second: (i + t) / Math.max(1, line.length - 1) > 0.5}];
+        }
+      }
+      if (!best) continue;
+      const name = `group ${group.number} ${group.name}`;
+      if (group.kind === "interface") {
+        const probe = run.probe_element(this.state, group, best.element, place);
+        list.push({words: `Interface element ${group.numbers[best.element]} (${name}), point ${probe.point + 1}`, rows: probe.rows});
+      } else {
+        const own = run.ends(this.state).find((g) => g.group === group), ends = own ? own.ends.filter((end) => end.element === best.element) : [];
+        const end = ends[best.second && ends.length > 1 ? 1 : 0];
+        if (end) list.push({words: `Structure element ${group.numbers[best.element]} (${name}), end ${end.end} at node ${run.number[end.node]}`,
+                            rows: run.quantities.map((q, k) => ({column: q.name, unit: q.unit, value: end.values[k]}))});
+      }
+    }
+    return list;
   }
   // Where the drawing's place was before it was displaced, about: through the nearest integration point as drawn.
   undisplaced(group, e, place) {
@@ -200,7 +233,7 @@ export class View {
     }
     return at;
   }
-  show_found(probe, node, shown) {
+  show_found(probe, node, shown, lines = []) {
     const {group, element} = probe, run = this.run, axes = run.json.axes, unit = run.json.units.length;
     const material = run.json.materials[group.material];
     const place = (p) => `${axes[0]} ${text_of(p[0], 7)}, ${axes[1]} ${text_of(p[1], 7)} ${unit}`;
@@ -212,13 +245,14 @@ export class View {
     this.readout.dataset.point = probe.point + 1;
     this.readout.dataset.node = of_node.number;
     this.show_rows([...probe.rows, ...of_node.rows.map((r) => ({...r, node: true}))], words + value,
-                   `Node ${of_node.number} at ${place(of_node.place)}`);
+                   lines, `Node ${of_node.number} at ${place(of_node.place)}`);
   }
-  show_rows(rows, words, node_words) {
-    const cells = (list) => h("dl", {class: "values"}, list.filter((r) => !Number.isNaN(r.value)).map((r) =>
+  show_rows(rows, words, lines = [], node_words = "") {
+    const cells = (list, name = "values") => h("dl", {class: name}, list.filter((r) => !Number.isNaN(r.value)).map((r) =>
       h("div", {}, h("dt", {}, r.column), h("dd", {"data-column": r.column, "data-value": String(r.value)},
                                             r.word ?? (text_of(r.value, this.run.digits) + (r.unit && r.unit !== "-" ? " " + r.unit : "")) ))));
-    this.readout.replaceChildren(h("p", {}, words), cells(rows.filter((r) => !r.node)),
+    this.readout.replaceChildren(words ? h("p", {}, words) : "", cells(rows.filter((r) => !r.node)),
+                                 ...lines.flatMap((line) => [h("p", {}, line.words), cells(line.rows, "values line")]),
                                  ...(node_words ? [h("p", {}, node_words), cells(rows.filter((r) => r.node))] : []));
   }
 
@@ -525,16 +559,35 @@ export class View {
     pen.text(12 + px + 6, y, `${text_of(length, 3)} ${this.run.json.units.length}${times}`, ink, "start", 11);
   }
 
+  // On paper a canvas of WebGL is empty, and one canvas covers another: all is painted on one, as sharp as the curves.
+  to_paper() {
+    if (this.copy) return;
+    this.copy = h("canvas", {width: this.over.width, height: this.over.height});
+    this.copy.style.width = this.over.style.width;
+    this.copy.style.height = this.over.style.height;
+    const context = this.context_of(this.copy), pen = new CanvasPen(context);
+    if (this.triangles > most_svg_triangles) context.drawImage(this.under, 0, 0, this.drawing_width, this.height);
+    else this.paint_under(pen, this.choice ? this.run.values(this.state, this.choice) : null, this.bands);
+    this.paint_over(pen, true);
+    this.box.append(this.copy);
+    this.under.hidden = this.over.hidden = true;
+  }
+  from_paper() {
+    if (this.copy) this.copy.remove();
+    this.copy = null;
+    this.under.hidden = this.over.hidden = false;
+  }
+
   // Files.
   get file() {
     const s = this.run.states[this.state];
     return file_name(`${this.run.name}_${this.choice ? this.choice.id : "mesh"}_${s.stage}_${s.increment}`);
   }
+  get triangles() { return this.run.groups.reduce((n, g) => n + (g.area ? (g.elements * g.triangles.length) / 3 : 0), 0); }
   svg() {
     const pen = new SvgPen(this.width, this.height, style_of("--paper"));
     const choice = this.choice, values = choice ? this.run.values(this.state, choice) : null;
-    const count = this.run.groups.reduce((n, g) => n + (g.area ? (g.elements * g.triangles.length) / 3 : 0), 0);
-    if (count > most_svg_triangles) pen.image(this.under.toDataURL("image/png"), 0, 0, this.drawing_width, this.height);
+    if (this.triangles > most_svg_triangles) pen.image(this.under.toDataURL("image/png"), 0, 0, this.drawing_width, this.height);
     else this.paint_under(pen, values, this.bands);
     this.paint_over(pen, true);
     pen.text(8, 16, this.caption.textContent, style_of("--ink"), "start", 12);
