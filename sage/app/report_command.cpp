@@ -53,7 +53,7 @@ void expect_fields(const std::vector<std::string>& fields,
       return std::ranges::find(names, name) != names.end();
     });
     if (there) continue;
-    std::ranges::sort(known);
+    std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
     throw UsageError("S622", fmt::format("--field {}: no run has such a field; there are: {}", name,
                                          fmt::join(known, ", ")));
@@ -133,7 +133,7 @@ fs::path result_file_of(const std::string& name) {
     std::vector<fs::path> found;
     for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
       if (entry.path().extension() == ".h5") found.push_back(entry.path());
-    std::ranges::sort(found);
+    std::sort(found.begin(), found.end());
     if (found.size() == 1) return found.front();
     std::string names;
     for (const fs::path& file : found) names += " " + file.filename().string();

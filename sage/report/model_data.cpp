@@ -149,6 +149,9 @@ Json material_json(const Model& model, const Material& material) {
           {"name", clean(material.name)},
           {"law", clean(material.law_name)},
           {"unit_weight", material.unit_weight},
+          // Of structures it is the listing that says what the weight is of.
+          {"weight_unit",
+           size_of_law(material.law_ref()) == 4 ? clean(unit_text(Dimension::unit_weight, model.units)) : ""},
           {"parameters", std::move(parameters)}};
 }
 
@@ -219,7 +222,7 @@ void add_model(const PageRun& run, Json& json) {
   json["title"] = clean(model.title);
   json["geometry"] = model.geometry == Geometry::axisymmetric ? "axisymmetric" : "plane strain";
   json["axes"] = {axes.x, axes.y};
-  json["units"] = {{"length", clean(model.units.length)},
+  json["units"] = {{"length", model.units.length == "-" ? "" : clean(model.units.length)},
                    {"force", clean(model.units.force)},
                    {"stress", clean(model.units.stress)},
                    {"forces_per", clean(forces_per(model))},

@@ -37,7 +37,7 @@ std::vector<fs::path> beside(const fs::path& result, const std::string& ending) 
         (name[stem.size()] == '.' || name[stem.size()] == '_') && entry.is_regular_file(error))
       files.push_back(entry.path());
   }
-  std::ranges::sort(files);
+  std::sort(files.begin(), files.end());
   return files;
 }
 
@@ -172,8 +172,10 @@ Json summary_json(const PageRun& run) {
   const auto& states = run.states;
   add("path", fmt::format("{} of {} stages, {} states kept", states.empty() ? 0 : states.back().stage + 1,
                           model.stages.size(), states.size()));
-  add("units", fmt::format("{}, {}, {}; forces {}", model.units.length, model.units.force, model.units.stress,
-                           forces_per(model)));
+  add("units", model.units.length == "-"
+                   ? "the deck states none"
+                   : fmt::format("{}, {}, {}; forces {}", model.units.length, model.units.force,
+                                 model.units.stress, forces_per(model)));
   add("signs", "stress and strain compression positive; displacements and forces along the axes");
   add("deck", run.deck_name);
   return rows;

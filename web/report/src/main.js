@@ -132,7 +132,7 @@ class Page {
     const cards = list.map(({run, group}) => {
       const quantities = run.quantities.filter((q) => run.json.envelope.some((r) => r.group === group.index && r.low[run.quantities.indexOf(q)] !== null));
       const start = quantities.find((q) => q.name === "bending_moment") || quantities[0];
-      const chart = new Chart(this, {name: `${run.name} group ${group.number}`, x: `distance along the structure [${run.json.units.length}]`, y: ""}), legend = h("div");
+      const chart = new Chart(this, {name: `${run.name} group ${group.number}`, x: `distance along the structure${run.json.units.length ? ` [${run.json.units.length}]` : ""}`, y: ""}), legend = h("div");
       const item = {run, group, chart, legend, q: start};
       this.structure_charts.push(item);
       return h("section", {class: "card"}, h("h3", {}, `${this.runs.length > 1 ? run.name + ": " : ""}group ${group.number} ${group.name}`),
@@ -188,7 +188,7 @@ class Page {
       h("h3", {}, "Materials"),
       h("div", {class: "materials"}, run.json.materials.map((m) => h("details", {open: true}, h("summary", {}, `${m.number} ${m.name}: ${m.law}`),
         table(["parameter", "value", "unit", "meaning"], [...m.parameters.map((p) => [p.name, text_of(p.value, 8), p.unit, p.meaning]),
-          ...(m.unit_weight ? [["unit_weight", text_of(m.unit_weight, 8), `${run.json.units.force}/${run.json.units.length}^3`, "unit weight"]] : [])], {class: "list"})))),
+          ...(m.unit_weight ? [["unit_weight", text_of(m.unit_weight, 8), m.weight_unit, m.weight_unit ? "unit weight" : "weight, as the listing describes it"]] : [])], {class: "list"})))),
       h("h3", {}, "Stages, loads and water"),
       run.json.stages.map((s, i) => h("details", {open: true}, h("summary", {}, `Stage ${i + 1}: ${s.title}`),
         h("pre", {}, s.text), h("p", {}, this.load_words(run, s), s.line ? h("a", {href: `#deck-${run.index}-${s.line}`}, ` Line ${s.line} of the deck.`) : null)))));
@@ -344,7 +344,7 @@ class Page {
       series.push({label: view.run.name, x, y, run: view.run, dash: series.length ? [8, 4] : []});
     }
     const choice = this.views[0].choice || this.views[1].choice;
-    this.cut_chart.set(series, {x: `distance from A [${this.runs[0].json.units.length}]`, y: choice.id + (choice.unit ? ` [${choice.unit}]` : "")});
+    this.cut_chart.set(series, {x: `distance from A${this.runs[0].json.units.length ? ` [${this.runs[0].json.units.length}]` : ""}`, y: choice.id + (choice.unit ? ` [${choice.unit}]` : "")});
   }
 
   change_look() {
