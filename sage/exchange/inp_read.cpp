@@ -170,6 +170,12 @@ class InpReader {
                                              "ELCOPY", "NODE GENERATION", "SYSTEM", "TRANSLATE"};
     keyword_ = std::move(keyword);
     const std::string& name = keyword_.name;
+    note_assembly(name);
+    if (name == "NODE" && beside_parts_) {
+      keyword_.name = "NODE of *ASSEMBLY";
+      left_out_.insert(keyword_.name);
+      return;
+    }
     if (name == "INCLUDE" || ((name == "NODE" || name == "ELEMENT") && keyword_.find("INPUT") != nullptr)) {
       const std::string* of = keyword_.find("INPUT");
       fail(keyword_.line, "*" + name + (name == "INCLUDE" ? "" : ", INPUT=") +
@@ -194,6 +200,12 @@ class InpReader {
              name != "END ASSEMBLY" && name != "INSTANCE" && name != "END INSTANCE" && name != "PREPRINT" &&
              name != "END STEP")
       left_out_.insert(name);
+  }
+
+  // Nodes of an assembly itself are points of reference, with numbers of their own.
+  void note_assembly(const std::string& name) {
+    if (name == "ASSEMBLY" || name == "END INSTANCE") beside_parts_ = true;
+    if (name == "INSTANCE" || name == "END ASSEMBLY") beside_parts_ = false;
   }
 
   const std::string& needed(const std::string& parameter) const {
@@ -336,9 +348,10 @@ class InpReader {
       set_->members.push_back(range);
       return;
     }
+    const bool of_part = !beside_parts_ || keyword_.find("INSTANCE") != nullptr;
     for (const std::string_view part : parts) {
       int number = 0;
-      if (part.empty()) continue;
+      if (part.empty() || (!of_part && read_number(bare(part), number))) continue;
       if (read_number(without_instance(bare(part)), number))
         set_->members.push_back({number, number, 1, {}, line_number_});
       else
@@ -627,7 +640,7 @@ class InpReader {
   std::optional<TypeOfElement> type_;
   std::string element_set_, surface_;
   NamedSet *node_set_ = nullptr, *set_ = nullptr;
-  bool surface_of_nodes_ = false, plane_stress_ = false;
+  bool surface_of_nodes_ = false, plane_stress_ = false, beside_parts_ = false;
   std::vector<int> numbers_;  // of the element that is being read
   int element_line_ = 0, instances_ = 0;
 

@@ -210,7 +210,7 @@ std::string binary41() {
 
 std::string with_line_ends(const std::string& text, const std::string& end) {
   std::string all;
-  for (const char c : text) c == '\n' ? all += end : all += c;
+  for (const char c : text) all += c == '\n' ? end : std::string(1, c);
   return all;
 }
 
@@ -317,6 +317,27 @@ TEST(MeshFiles, SetsThatNameGroups) {
                       "*ELSET,ELSET=both\n1,2\n*SOLID SECTION,ELSET=both\n*SOLID SECTION,ELSET=S2\n")
                 .find("element 2 belongs to 'both' and 'S2'"),
             std::string::npos);
+}
+
+// A part with one instance, as Abaqus/CAE writes it: the assembly has a point of reference and sets by instance.
+TEST(MeshFiles, PartAndAssembly) {
+  const std::string text =
+      "*Part, name=P\n*Node\n1,0,0\n2,1,0\n3,1,1\n4,0,1\n*Element, type=CPE4R\n1,1,2,3,4\n*Elset, elset=Soil, "
+      "generate\n"
+      "1,1,1\n*Solid Section, elset=Soil, material=M\n,\n*End Part\n*Assembly, name=A\n*Instance, name=P-1, "
+      "part=P\n"
+      "*End Instance\n*Node\n1,9,9,0\n*Nset, nset=RP\n1,\n*Nset, nset=Base, instance=P-1\n1,2\n*Nset, "
+      "nset=Top\n"
+      "P-1.3,P-1.4\n*End Assembly\n*Material, name=M\n*Elastic\n1.,.3\n";
+  ForeignMeshOptions options;
+  options.uses = {mesh_use("fix", "Base=xy"), mesh_use("pressure", "Top=5")};
+  const Model model = mesh_of(text, options);
+  EXPECT_EQ(model.mesh.nodes(), 4);
+  EXPECT_EQ(model.groups[0].name, "Soil");
+  EXPECT_EQ(model.fixities.size(), 2u);
+  EXPECT_EQ(model.stages[0].pressures.size(), 1u);
+  options.uses = {mesh_use("fix", "RP=xy")};
+  EXPECT_NE(rejection(text, options).find("'RP' has no nodes of the mesh to hold"), std::string::npos);
 }
 
 struct Broken {
