@@ -1110,12 +1110,13 @@ constexpr MessageEntry kMessages[] = {
      "Search with more iterations: sagefe safety DECK --iterations 200. Compare the loads and supports of "
      "both."},
 
-    {"S579", "the steps or the end of a stage of consolidation do not fit",
+    {"S579", "the times of a stage of consolidation do not fit",
      "The fields time_error, end_degree, end_pressure and output_times of a stage need pore_water 2, values in "
      "their "
      "range, and theta blank beside time_error. A stage that ends by degree or pressure changes no load, "
      "support or "
-     "group: such changes take the whole duration.",
+     "group: such changes take the whole duration. A history of a support or load of excess_pressure is pairs of "
+     "a time and a share of the value, with ascending times.",
      "Correct the field, or put the load into a stage of its own before the wait "
      "(docs/manual/consolidation.md)."},
     {"S580", "how a stage of consolidation ended",
