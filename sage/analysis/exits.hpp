@@ -1,5 +1,6 @@
-// Where water may leave into air: seepage faces and drains.  At each of these nodes either the head is at its
-// limit and water flows out, or it is lower and nothing flows.  Which of the two is found by switching.
+// Where water may leave into air: seepage faces and drains.  At each of these nodes either the head (or excess pressure) is
+// at its limit and water flows out, or it is lower and nothing flows but what a load brings: rain that soaks in, or ponds.
+// Which of the two is found by switching.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,6 +24,9 @@ class Exits {
   // After a step to the heads u with the inflows (internal - external) of all dofs: true where some place had to be
   // switched.
   bool update(const Eigen::VectorXd& u, const Eigen::VectorXd& inflow, std::vector<char>& held);
+  // Dofs of excess pressures that are at their limit now.
+  std::vector<int> open_pores(const std::vector<char>& held) const;
+  std::vector<int> nodes() const;
   // Nodes that were switched last.
   const std::vector<int>& switched() const { return switched_; }
 
@@ -30,8 +34,10 @@ class Exits {
   struct Place {
     int node = 0, dof = 0;
     double limit = 0.0;
+    bool of_pores = false;
   };
-  double tolerance() const { return 1e-7 * size_; }
+  void enter_field(const Model& model, const Activity& activity, int stage, int field, bool of_pores);
+  double tolerance(const Place& place, const Eigen::VectorXd& u) const;
 
   std::vector<Place> places_;
   std::vector<int> switched_;

@@ -60,7 +60,8 @@ void add_body_forces(const Model& model, const Group& group, const Vector2& grav
 // Point loads of a stage, in every field.
 void add_point_loads(const Stage& stage, const DofMap& map, Eigen::VectorXd& force) {
   for (const NodalLoad& load : stage.loads) force.segment<2>(DofMap::displacement(load.node)) += load.force;
-  for (const FieldLoad& load : stage.field_loads) force[map.of(load.node, load.field)] += load.value;
+  for (const FieldLoad& load : stage.field_loads)
+    force[map.of(load.node, load.field)] += added_at(load, 1.0, stage.duration);
 }
 
 void drop_inactive(const std::vector<char>& active, Eigen::VectorXd& force) {
@@ -246,7 +247,8 @@ Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map) {
     for (std::size_t c = 0; c < 2; ++c)
       if (f.code[c] == FixityCode::fixed) rate[DofMap::displacement(f.node, static_cast<int>(c))] = f.value[c];
   for (const FieldFixity& f : stage.field_fixities)
-    if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed) rate[dof] = f.value;
+    if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed)
+      rate[dof] = added_at(f, 1.0, stage.duration);
   return rate;
 }
 
@@ -258,6 +260,10 @@ Eigen::VectorXd supported_values(const Model& model, int stage, const DofMap& ma
       if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::released)
         values[dof] = 0.0;
   }
+  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  for (const FieldFixity& f : now.field_fixities)
+    if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed)
+      values[dof] += added_at(f, 0.0, now.duration);
   return values;
 }
 

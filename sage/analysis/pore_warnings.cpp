@@ -65,7 +65,8 @@ double area_of(const Eigen::Matrix2Xd& x, int corners) {
 
 }  // namespace
 
-std::vector<Diagnostic> closed_part_warnings(const Model& model, const Stage& stage, const Activity& activity) {
+std::vector<Diagnostic> closed_part_warnings(const Model& model, const Stage& stage, const Activity& activity,
+                                             const std::vector<int>& exits) {
   if (stage.pores != PoreWater::flows) return {};
   const std::vector<int> part = connected_parts(
       model, [&](std::size_t g, int) { return activity.group[g] != 0 && model.groups[g].entry->has_pores(); });
@@ -74,6 +75,8 @@ std::vector<Diagnostic> closed_part_warnings(const Model& model, const Stage& st
   for (const auto& [dof, supported] : activity.pores)
     if (const int p = part[static_cast<std::size_t>(activity.dof_map.at(dof).node)]; supported && p >= 0)
       open[static_cast<std::size_t>(p)] = 1;
+  for (const int node : exits)
+    if (const int p = part[static_cast<std::size_t>(node)]; p >= 0) open[static_cast<std::size_t>(p)] = 1;
   std::vector<Diagnostic> list;
   for (int p = 0; p < parts; ++p)
     if (!open[static_cast<std::size_t>(p)])

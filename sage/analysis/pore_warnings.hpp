@@ -8,7 +8,9 @@
 namespace sage {
 
 // Parts of the model that water flows in, and where none may leave.
-std::vector<Diagnostic> closed_part_warnings(const Model& model, const Stage& stage, const Activity& activity);
+// exits: nodes where it may under conditions.
+std::vector<Diagnostic> closed_part_warnings(const Model& model, const Stage& stage, const Activity& activity,
+                                             const std::vector<int>& exits);
 
 // Elements beside supports that take their pressure at the start of a stage, in which a step of that length lies below
 // h^2 / (6 theta c).  jump: of the supports' pressures, one entry per dof.

@@ -71,7 +71,28 @@ double RunParts::end_of(const RunPlace& place) const {
 }
 
 Eigen::VectorXd RunParts::loads_at(double load_factor) const {
-  return (1.0 - load_factor) * state.path.force_start + load_factor * state.path.force_end;
+  Eigen::VectorXd loads = (1.0 - load_factor) * state.path.force_start + load_factor * state.path.force_end;
+  add_histories(load_factor, loads);
+  return loads;
+}
+
+void RunParts::add_histories(double load_factor, Eigen::VectorXd& loads) const {
+  const Stage& now = stage();
+  for (const FieldLoad& load : now.field_loads) {
+    const int dof = load.history.empty() ? -1 : system.activity().dof_map.of(load.node, load.field);
+    if (dof >= 0 && assembly().in_use(dof))
+      loads[dof] += added_at(load, load_factor, now.duration) - load_factor * added_at(load, 1.0, now.duration);
+  }
+}
+
+void RunParts::collect_at_exits() const {
+  StagePath& path = state.path;
+  for (const int dof : system.exits().open_pores(system.activity().held)) {
+    const double left = assembly().internal_force()[dof] - state.external[dof];
+    for (Eigen::VectorXd* load :
+         {&state.external, &path.external_start, &path.force_start, &path.force_end, &path.let_in})
+      (*load)[dof] += left;
+  }
 }
 
 std::string RunParts::keep_state() const {

@@ -45,6 +45,10 @@ struct RunParts {
   double end_of(const RunPlace& place) const;
   // Loads at this load factor of the stage in hand (A1), every dof.
   Eigen::VectorXd loads_at(double load_factor) const;
+  // What loads with a history differ there from loads that grow in proportion.
+  void add_histories(double load_factor, Eigen::VectorXd& loads) const;
+  // What has left through an exit of excess pressure is a load from then on: the node may close in the next step.
+  void collect_at_exits() const;
   // All that a step starts from at the committed state, except for the tangent; and back to it, with no step in hand.
   std::string keep_state() const;
   void restore_state(const std::string& kept) const;

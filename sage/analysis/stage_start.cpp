@@ -87,7 +87,7 @@ void StageStart::take_pressures_of_supports(int stage) {
   const Eigen::VectorXd values = supported_values(run_.model, stage, activity.dof_map);
   for (const auto& [dof, supported] : activity.pores)
     if (supported) state.du[dof] = values[dof] - state.u[dof];
-  run_.warn(closed_part_warnings(run_.model, run_.stage(), activity));
+  run_.warn(closed_part_warnings(run_.model, run_.stage(), activity, run_.system.exits().nodes()));
   if (!state.du.isZero(0.0)) {
     run_.warn(short_step_warnings(run_.model, run_.stage(), run_.assembly(), state.du,
                                   run_.end_of({stage, 1}) * run_.stage().duration));

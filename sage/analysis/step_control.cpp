@@ -159,7 +159,9 @@ void StepControl::accept(StepReport& report, const NewtonStep& step, double to) 
   path.own_tangent = path.own_tangent || step.finished;
   stepper_.set_newton(Stepper::Newton::by_stage);
   const bool modified = run_.stage().method == Method::modified_newton && !path.own_tangent;
-  if (modified) renew_tangent();
+  // The tangent at the end of a step serves the next one.  It must be evaluated with the step still in hand: at du = 0 a law on
+  // its yield surface answers elastically.
+  if (modified && !run_.tangent().constant()) run_.assembly().evaluate(run_.state.du, &run_.tangent());
   path.policy->accept(run_, step, size, report.cuts > 0);
   on_last_way_ = false;
   if (path.own_tangent) run_.tangent().set_aside();
@@ -180,12 +182,6 @@ bool StepControl::fail(StepReport& report, const NewtonStep& step, double size) 
   return false;
 }
 
-// Modified Newton: the tangent at the end of a step serves the next one.  It must be evaluated with the step still in
-// hand: at du = 0 a law on its yield surface answers elastically.
-void StepControl::renew_tangent() {
-  if (!run_.tangent().constant()) run_.assembly().evaluate(run_.state.du, &run_.tangent());
-}
-
 void StepControl::move_to(double load_factor) {
   RunState& state = run_.state;
   Assembly& assembly = run_.assembly();
@@ -194,6 +190,8 @@ void StepControl::move_to(double load_factor) {
   state.u += state.du;
   state.reached = load_factor;
   state.external = (1.0 - load_factor) * state.path.external_start + load_factor * state.path.force_end;
+  run_.add_histories(load_factor, state.external);
+  run_.collect_at_exits();
   if (!state.path.pore_end.empty()) run_.set_water(load_factor);
   if (!assembly.is_behind()) run_.result.motion = std::max(run_.result.motion, run_.extent.motion(state.u));
 }

@@ -49,7 +49,6 @@ class StepControl {
   bool can_relax(const NewtonStep& step, bool last) const;
   bool relax(StepReport& report, double end);
   NewtonStep relax_step(Relaxation& relaxation, StepReport& report, double from, double& to);
-  void renew_tangent();
   void move_to(double load_factor);
   void keep_step(double size);
   void start_on_last_way(double size);

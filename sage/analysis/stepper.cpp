@@ -36,6 +36,7 @@ NewtonSettings Stepper::settings() const {
 NewtonStep Stepper::attempt(double from, double to, Begin begin) {
   NewtonSettings newton = settings();
   newton.stop_at_flow = run_.settings.trials != nullptr;
+  if (run_.stage().has_histories()) run_.state.path.policy->forget(SteppingPolicy::Past::last_step);
   if (begin == Begin::here) newton.start = NewtonStart::nearby;
   run_.state.path.policy->prepare(run_, to - from, newton);
   return solve(from, to, newton);
@@ -61,6 +62,7 @@ NewtonStep Stepper::attempt_near(double at) {
 NewtonStep Stepper::solve(double from, double to, const NewtonSettings& settings) {
   RunState& state = run_.state;
   state.target = run_.loads_at(to);
+  if (to > from && run_.stage().has_histories()) run_.system.take_histories(run_.stage(), from, to);
   run_.set_step_time(to, to - from);
   NewtonSettings newton = settings;
   if (state.path.u_start.size() > 0) newton.so_far = {from, &state.path.u_start, &state.u};

@@ -117,6 +117,19 @@ bool System::switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, c
   return true;
 }
 
+void System::take_histories(const Stage& stage, double from, double to) {
+  bool changed = false;
+  for (const FieldFixity& f : stage.field_fixities) {
+    const int dof = f.history.empty() ? -1 : activity_.dof_map.of(f.node, f.field);
+    if (dof < 0 || f.code != FixityCode::fixed || stage.pores != PoreWater::flows) continue;
+    rate_[dof] = (added_at(f, to, stage.duration) - added_at(f, from, stage.duration)) / (to - from);
+    changed = true;
+  }
+  if (!changed) return;
+  tangent_.set_rate(rate_);
+  tangent_.forget();
+}
+
 void System::take_exits(const Eigen::VectorXd& u, double part) {
   exits_.set_rates(u, part, activity_.held, rate_);
   renumber();

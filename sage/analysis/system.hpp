@@ -31,6 +31,8 @@ class System {
   // After that step, to u + du: true where some were switched, and the step is to be tried again.
   bool switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, const Eigen::VectorXd& target,
                     double part);
+  // Supports with a history, in a step between two load factors of the stage.
+  void take_histories(const Stage& stage, double from, double to);
   const Exits& exits() const { return exits_; }
 
   const Scene& scene() const { return scene_; }

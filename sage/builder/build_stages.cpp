@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <optional>
 #include <sstream>
 
 #include "sage/builder/builder.hpp"
@@ -69,12 +70,49 @@ bool has_unknown(Builder& b, const CardView& card, int node, int field) {
   return false;
 }
 
+// Numbers of a text with blanks between; nothing where a word is none.
+std::optional<std::vector<double>> numbers_of(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream words(text);
+  words.imbue(std::locale::classic());
+  for (std::string word; words >> word;) {
+    double number = 0.0;
+    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+    if (problem != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) return {};
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
+constexpr std::size_t kColumnsOfText = 80;
+
+// field: of unknowns, 0 = displacement.
+TimeTable read_history_of_time(Builder& b, const CardView& card, int field) {
+  if (card.blank("history")) return {};
+  const std::string text = b.text(card, "history");
+  const std::optional<std::vector<double>> numbers = numbers_of(text);
+  TimeTable table;
+  for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2)
+    table.emplace_back((*numbers)[i], (*numbers)[i + 1]);
+  const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
+  if (field == 0 || !b.model.unknowns[static_cast<std::size_t>(field)].of_pores)
+    b.error("S579", card.where("history"), "a history is for the unknown excess_pressure alone");
+  else if (!numbers || numbers->size() % 2 != 0 || table.empty() || text.size() > kColumnsOfText)
+    b.error("S579", card.where("history"),
+            "a history is pairs of a time and a share, with blanks between, of 80 characters at most");
+  else if (table.front().first < 0.0 || std::ranges::adjacent_find(table, falls) != table.end())
+    b.error("S579", card.where("history"),
+            "the times of a history count from the start of the stage and must ascend");
+  return table;
+}
+
 void read_field_fixity(Builder& b, const CardView& card, int field, const Fixity& fixity,
                        std::vector<FieldFixity>& out) {
   require_one_component(b, card, {"y_code", "y_value"});
+  const TimeTable history = read_history_of_time(b, card, field);
   for (int node : node_range(b, card)) {
     if (!has_unknown(b, card, node, field)) return;
-    out.push_back({field, node, fixity.code[0], fixity.value[0], fixity.line});
+    out.push_back({field, node, fixity.code[0], fixity.value[0], fixity.line, history});
   }
 }
 
@@ -82,7 +120,8 @@ void read_field_fixity(Builder& b, const CardView& card, int field, const Fixity
 bool read_exit(Builder& b, const CardView& card, int field, std::vector<Exit>* out) {
   constexpr int kExit = 2;
   if (card.integer("x_code") != kExit || field == 0) return false;
-  if (b.model.unknowns[static_cast<std::size_t>(field)].name != "head") return false;
+  const UnknownField& unknown = b.model.unknowns[static_cast<std::size_t>(field)];
+  if (unknown.name != "head" && !unknown.of_pores) return false;
   if (out == nullptr) {
     b.error("S233", card.where("x_code"), "an exit of water (code 2) belongs on a fixity card of a stage");
     return true;
@@ -92,7 +131,7 @@ bool read_exit(Builder& b, const CardView& card, int field, std::vector<Exit>* o
   b.usable(card, "x_value", pressure_head);
   for (const int node : node_range(b, card)) {
     if (!has_unknown(b, card, node, field)) return true;
-    out->push_back({node, pressure_head, card.card().line});
+    out->push_back({node, pressure_head, card.card().line, unknown.of_pores ? field : -1});
   }
   return true;
 }
@@ -134,6 +173,7 @@ void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std
     if (!in_stage && fixity.code[c] == FixityCode::released)
       b.error("S233", card.where(codes[c]), "only a stage can release a fixity (code -1)");
   if (field > 0) return read_field_fixity(b, card, field, fixity, out_fields);
+  read_history_of_time(b, card, field);
   for (int node : node_range(b, card)) {
     fixity.node = node;
     out.push_back(fixity);
@@ -151,12 +191,14 @@ void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
   b.usable(card, "y_force", load.force.y());
   if (field > 0) {
     require_one_component(b, card, {"y_force"});
+    const TimeTable history = read_history_of_time(b, card, field);
     for (int node : node_range(b, card)) {
       if (!has_unknown(b, card, node, field)) return;
-      out_fields.push_back({field, node, load.force.x(), load.line});
+      out_fields.push_back({field, node, load.force.x(), load.line, history});
     }
     return;
   }
+  read_history_of_time(b, card, field);
   for (int node : node_range(b, card)) {
     load.node = node;
     out.push_back(load);
@@ -424,26 +466,17 @@ void read_pores(Builder& b, const CardView& card, Stage& stage) {
 
 // Times of the text "0.5 2 10", ascending; an error where it is none.
 std::vector<double> read_times(Builder& b, const CardView& card, double duration) {
-  constexpr std::size_t kColumns = 80;
   const std::string text = b.text(card, "output_times");
-  std::vector<double> times;
-  std::istringstream words(text);
-  words.imbue(std::locale::classic());
-  for (std::string word; words >> word;) {
-    double time = 0.0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), time);
-    const bool good = problem == std::errc() && end == word.data() + word.size();
-    if (!good || !(time > 0.0 && time <= duration * (1.0 + 1e-12))) {
-      b.error("S579", card.where("output_times"),
-              "output time '" + word +
-                  "': times are numbers above 0 and at most the duration of the stage, "
-                  "with blanks between");
-      return {};
-    }
-    times.push_back(std::min(time, duration));
-  }
+  std::vector<double> times = numbers_of(text).value_or(std::vector{-1.0});
   std::ranges::sort(times);
-  if (text.size() > kColumns)
+  const auto is_outside = [&](double time) { return !(time > 0.0 && time <= duration * (1.0 + 1e-12)); };
+  if (std::ranges::any_of(times, is_outside)) {
+    b.error("S579", card.where("output_times"),
+            "output times are numbers above 0 and at most the duration of the stage, with blanks between");
+    return {};
+  }
+  for (double& time : times) time = std::min(time, duration);
+  if (text.size() > kColumnsOfText)
     b.error("S579", card.where("output_times"), "the output times of a stage have more than 80 characters");
   return times;
 }
@@ -485,6 +518,11 @@ void read_time_steps(Builder& b, const CardView& card, Stage& stage) {
   stage.time_error = share("time_error", 0.5, "0.5");
   stage.end_degree = share("end_degree", 1.0, "1");
   stage.end_pressure = share("end_pressure", std::numeric_limits<double>::max(), "the largest number");
+  const auto of_pores = [](const Exit& exit) { return exit.field >= 0; };
+  const auto has_exits = [&](const Stage& one) { return std::ranges::any_of(one.exits, of_pores); };
+  if (stage.time_error > 0.0 && (has_exits(stage) || std::ranges::any_of(b.model.stages, has_exits)))
+    b.error("S579", card.where("time_error"),
+            "steps cannot be chosen by their error where water leaves through exits (code 2)");
   if (stage.time_error > 0.0 && stage.theta != 1.0)
     b.error("S579", card.where("theta"),
             "theta must be blank where steps are chosen by their error: their method has its own");

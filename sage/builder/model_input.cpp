@@ -171,11 +171,12 @@ void InputCards::add_support(const SupportInput& support, const std::string& car
   };
   for (const int node : support.nodes) {
     std::vector<NewField> fields{{"first", static_cast<double>(node)},
-                                 {"x_code", code(support.x)},
+                                 {"x_code", support.exit ? 2.0 : code(support.x)},
                                  {"y_code", code(support.y)},
                                  {"x_value", support.x_value},
                                  {"y_value", support.y_value}};
     if (!support.unknown.empty()) fields.push_back({"unknown", 0.0, {}, support.unknown});
+    if (!support.history.empty()) fields.push_back({"history", 0.0, {}, history_text(support.history)});
     add(card, fields, owner);
   }
 }
@@ -219,6 +220,7 @@ void InputCards::add_stage(const StageInput& stage, int number) {
       std::vector<NewField> fields{
           {"first", static_cast<double>(node)}, {"x_force", load.x}, {"y_force", load.y}};
       if (!load.unknown.empty()) fields.push_back({"unknown", 0.0, {}, load.unknown});
+      if (!load.history.empty()) fields.push_back({"history", 0.0, {}, history_text(load.history)});
       add("load", fields, card);
     }
   for (const PressureInput& pressure : stage.pressures)

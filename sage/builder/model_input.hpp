@@ -37,6 +37,8 @@ struct SupportInput {
   FixityCode x = FixityCode::unchanged, y = FixityCode::unchanged;
   double x_value = 0.0, y_value = 0.0;
   std::string unknown = {};  // another field than displacement, its code and value in x
+  TimeTable history = {};    // of an excess pressure
+  bool exit = false;         // of a field: water may leave at the value, none comes in (code 2)
 };
 
 // Added on each of the nodes in this stage.
@@ -44,6 +46,7 @@ struct LoadInput {
   std::vector<int> nodes;
   double x = 0.0, y = 0.0;
   std::string unknown = {};  // another field than displacement, its load in x
+  TimeTable history = {};    // of an excess pressure
 };
 
 // Added in this stage on the same edge, counted from 1, of each of the elements; linear along it.

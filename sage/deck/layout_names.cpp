@@ -42,7 +42,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "parameters", false, "values", "", "material"},
     {"sage1", "group", true, "number element material", "formulation name overlay second_material", ""},
     {"sage1", "element", true, "number n1 n2", kElement, ""},
-    {"sage1", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value unknown",
+    {"sage1", "fixity", false, "first x_code|y_code", "last step x_code y_code x_value y_value unknown history",
      "?stage"},
     {"sage1", "initial", false, "group v1", "kind v2 v3 v4 v5 v6 material parameter", "?stage"},
     {"sage1", "stage_title", false, "title", "", ""},
@@ -51,7 +51,7 @@ constexpr KnownCard kKnown[] = {
      "strength_factor pore_water theta grading reset_displacements time_error end_degree end_pressure "
      "output_times",
      ""},
-    {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown", "!stage"},
+    {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown history", "!stage"},
     {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2", "!stage"},
     {"sage1", "edge_load", false, "n1 n2 normal1 normal2", "n3 element sense normal3 shear1 shear2 shear3",
      "!stage"},

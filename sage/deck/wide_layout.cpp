@@ -69,6 +69,13 @@ void lengthen_cards(Layout& layout) {
              FieldKind::real),
        field("output_times", "times since the start of the stage with output, with blanks between",
              FieldKind::text)});
+  for (const char* card : {"stage_fixity", "load"})
+    lengthen(
+        layout, card, "A80",
+        {field("history",
+               "of an excess pressure: times since the start of the stage and the share of the value that is "
+               "reached then, as 0 0 2 1 10 0.5; blank = in proportion to time",
+               FieldKind::text)});
   for (const char* initial : {"initial", "stage_initial"})
     lengthen(layout, initial, "I10,A40",
              {field("material", "kind 6: material number, in place of value 1", FieldKind::integer),

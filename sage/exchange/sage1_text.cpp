@@ -122,7 +122,7 @@ class Sage1Writer {
   void elements();
   void fixity(const Fixity& fixity, bool in_stage);
   void fixity(const FieldFixity& fixity, bool in_stage);
-  void unknown(int field);
+  void unknown(int field, const TimeTable& history);
   void exit(const Exit& exit);
   void initial(const InitialStress& initial);
   void list(const std::vector<int>& groups);
@@ -354,7 +354,7 @@ void Sage1Writer::fixity(const FieldFixity& fixity, bool in_stage) {
   else
     blank_real();
   blank_real();
-  unknown(fixity.field);
+  unknown(fixity.field, fixity.history);
 }
 
 void Sage1Writer::exit(const Exit& exit) {
@@ -365,11 +365,13 @@ void Sage1Writer::exit(const Exit& exit) {
   integer(0);
   real(exit.pressure_head);
   blank_real();
-  unknown(find_unknown(model_.unknowns, "head"));
+  unknown(exit.field >= 0 ? exit.field : find_unknown(model_.unknowns, "head"), {});
 }
 
-void Sage1Writer::unknown(int field) {
+void Sage1Writer::unknown(int field, const TimeTable& history) {
   name(model_.unknowns[static_cast<std::size_t>(field)].name, 20);
+  if (!history.empty() && !wide_) throw TooWide{"of the history of a support or load"};
+  if (!history.empty()) name(history_text(history), 80);
   line();
 }
 
@@ -451,7 +453,7 @@ void Sage1Writer::stage(const Stage& stage) {
     two_zeros();
     real(load.value);
     real(0.0);
-    unknown(load.field);
+    unknown(load.field, load.history);
   }
   for (const EdgeLoad& load : stage.pressures) {
     const Group& group = model_.groups[static_cast<std::size_t>(load.group)];

@@ -201,8 +201,13 @@ void follow_field(Supports& supports, int field, std::vector<FieldFixity>& list,
     if (f.field == field) cards.push_back({f.node, {f.code}, {f.value}, f.line});
   const std::size_t given = cards.size();
   supports.follow(cards, edges);
-  for (std::size_t i = given; i < cards.size(); ++i)
-    list.push_back({field, cards[i].node, cards[i].code[0], cards[i].value[0], cards[i].line});
+  for (std::size_t i = given; i < cards.size(); ++i) {
+    const auto same = std::ranges::find_if(
+        list, [&](const FieldFixity& f) { return f.field == field && f.line == cards[i].line; });
+    TimeTable history = same != list.end() ? same->history : TimeTable();
+    list.push_back(
+        {field, cards[i].node, cards[i].code[0], cards[i].value[0], cards[i].line, std::move(history)});
+  }
 }
 
 void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {
@@ -224,7 +229,7 @@ void follow_exits(std::vector<Exit>& exits, const std::vector<CutEdge>& edges) {
       const double share =
           (made.at - edge.known[behind - 1].at) / (edge.known[behind].at - edge.known[behind - 1].at);
       const double pressure_head = (1.0 - share) * a->second.pressure_head + share * z->second.pressure_head;
-      exits.push_back({made.node, pressure_head, a->second.line});
+      exits.push_back({made.node, pressure_head, a->second.line, a->second.field});
     }
 }
 

@@ -1115,7 +1115,8 @@ constexpr MessageEntry kMessages[] = {
      "their "
      "range, and theta blank beside time_error. A stage that ends by degree or pressure changes no load, "
      "support or "
-     "group: such changes take the whole duration. A history of a support or load of excess_pressure is pairs of "
+     "group: such changes take the whole duration. A history of a support or load of excess_pressure is pairs "
+     "of "
      "a time and a share of the value, with ascending times.",
      "Correct the field, or put the load into a stage of its own before the wait "
      "(docs/manual/consolidation.md)."},

@@ -50,6 +50,8 @@ void Activity::enter(const Stage& stage) {
   for (int g : stage.deaths) group[static_cast<std::size_t>(g)] = 0;
   for (const auto& [dof, supported] : pores) held[static_cast<std::size_t>(dof)] = supported;
   apply(stage.fixities, stage.field_fixities, dof_map, held);
+  for (const Exit& exit : stage.exits)
+    if (exit.field >= 0) apply(FixityCode::released, dof_map.of(exit.node, exit.field), held);
   for (auto& [dof, supported] : pores) {
     char& now = held[static_cast<std::size_t>(dof)];
     supported = now;

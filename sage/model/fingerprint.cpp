@@ -33,7 +33,15 @@ void add_stage(Archive& archive, const Stage& s) {
   add_fixities(archive, s.fixities);
   for (const NodalLoad& load : s.loads) add(archive, load.node, load.force.x(), load.force.y());
   add_field_fixities(archive, s.field_fixities);
-  for (const Exit& exit : s.exits) add(archive, exit.node, exit.pressure_head);
+  for (const Exit& exit : s.exits) {
+    add(archive, exit.node, exit.pressure_head);
+    if (exit.field >= 0) add(archive, exit.field);
+  }
+  const auto add_history = [&](const auto& card) {
+    for (const auto& [time, share] : card.history) add(archive, time, share);
+  };
+  for (const FieldFixity& f : s.field_fixities) add_history(f);
+  for (const FieldLoad& load : s.field_loads) add_history(load);
   for (const FieldLoad& load : s.field_loads) add(archive, load.field, load.node, load.value);
   for (const EdgeLoad& load : s.pressures)
     add(archive, load.group, load.element, load.edge, load.normal.x(), load.normal.y(), load.shear.x(),

@@ -1,11 +1,36 @@
 #include "sage/model/model.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace sage {
+
+std::string history_text(const TimeTable& table) {
+  std::string text;
+  const auto add = [&](double number) {
+    std::array<char, 32> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    text += (text.empty() ? "" : " ") + std::string(digits.data(), end);
+  };
+  for (const auto& [time, share] : table) add(time), add(share);
+  return text;
+}
+
+double share_at(const TimeTable& table, double time) {
+  std::pair<double, double> before{0.0, 0.0};
+  for (const auto& next : table) {
+    if (time <= next.first) {
+      if (next.first == before.first) return next.second;
+      const double part = (time - before.first) / (next.first - before.first);
+      return before.second + part * (next.second - before.second);
+    }
+    before = next;
+  }
+  return before.second;
+}
 
 LawRef Material::law_ref() const {
   return reference(law);

@@ -120,26 +120,42 @@ struct EdgeLoad {
   int line = 0;
 };
 
+// Shares of a value by the time since the start of a stage, ascending: linear between, from 0 at the start where that is left
+// out, the last share behind the last time.  Empty: in proportion to the load factor.
+using TimeTable = std::vector<std::pair<double, double>>;
+double share_at(const TimeTable& table, double time);
+std::string history_text(const TimeTable& table);  // "0 0 2 1", as on cards
+
 // A support or a load in a field of one number a node (Model::unknowns); as Fixity and NodalLoad are.
 struct FieldFixity {
   int field = 1, node = 0;
   FixityCode code = FixityCode::unchanged;
   double value = 0.0;
   int line = 0;
+  TimeTable history = {};  // of excess pressures
 };
 
 struct FieldLoad {
   int field = 1, node = 0;
   double value = 0.0;  // added over the stage
   int line = 0;
+  TimeTable history = {};  // of excess pressures
 };
 
+// What a support or a load of a field has added at a load factor of its stage, which lasts that long.
+template <class Card>
+double added_at(const Card& card, double load_factor, double duration) {
+  return card.value * (card.history.empty() ? load_factor : share_at(card.history, load_factor * duration));
+}
+
 // From its stage on, until a card holds or releases the head of the node: water may leave there, and does as soon
-// as it stands at this pressure head above the node; none comes in.
+// as it stands at this pressure head above the node; none comes in but what loads bring.  Of excess pressures: as soon as
+// they reach this pressure.
 struct Exit {
   int node = 0;
   double pressure_head = 0.0;
   int line = 0;
+  int field = -1;  // of Model::unknowns; -1 = the head
 };
 
 enum class InitialKind {
@@ -244,6 +260,10 @@ struct Stage {
   SourcePosition where;
 
   int given_increments() const { return divisions > 0 ? divisions : increments; }
+  bool has_histories() const {
+    const auto has = [](const auto& card) { return !card.history.empty(); };
+    return std::ranges::any_of(field_fixities, has) || std::ranges::any_of(field_loads, has);
+  }
   bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }
 };
 

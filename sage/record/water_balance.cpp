@@ -18,9 +18,12 @@ std::vector<char> permeable_nodes(const Model& model, int stage, const Activity&
   for (const auto& [dof, supported] : activity.pores)
     if (supported) set(activity.dof_map.at(dof).node);
   const int field = model.pore_field();
-  for (const Stage& one : std::span(model.stages).first(static_cast<std::size_t>(stage) + 1))
+  for (const Stage& one : std::span(model.stages).first(static_cast<std::size_t>(stage) + 1)) {
     for (const FieldLoad& load : one.field_loads)
       if (load.field == field) set(load.node);
+    for (const Exit& exit : one.exits)
+      if (exit.field == field) set(exit.node);
+  }
   return flags;
 }
 

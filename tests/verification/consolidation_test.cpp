@@ -344,8 +344,8 @@ struct Volumes {
 };
 struct VolumeObserver final : Observer {
   std::vector<Volumes> steps;
-  std::vector<WaterBoundary> boundaries;  // of the last step
-  double difference = 0.0;                // largest, as a share of all volumes
+  std::vector<WaterBoundary> boundaries, before;  // of the last step, and of the one before
+  double difference = 0.0;                        // largest, as a share of all volumes
   void on_increment(const Model& model, const StepReport&, const Solution& now) override {
     Volumes sums;
     const DofMap map(model);
@@ -356,6 +356,7 @@ struct VolumeObserver final : Observer {
     const WaterBalance balance = water_balance(model, now.stage, now);
     sums.content = balance.taken_up;
     difference = std::max(difference, std::abs(balance.difference()) / balance.scale);
+    before = std::move(boundaries);
     boundaries = balance.boundaries;
     steps.push_back(sums);
   }
@@ -503,6 +504,115 @@ TEST(Consolidation, UnitsOfStressScaleWithoutLoss) {
 }
 
 // ---- stages behind one another ----
+
+// ---- boundaries in time ----
+
+// p(t) = 2 f(t) at both ends of a column with compressible water and a rigid skeleton would be diffusion; with a soft one it is
+// too.  f is 0.5 at once, 1 from t = 1 on: the answer is a sum of Terzaghi's series, one for the jump and one for the ramp.
+TEST(Consolidation, APressureFollowsItsHistory) {
+  Column column(graded(0.0, 1.0, 40));
+  StageInput rise = consolidation(2.0, 800);
+  rise.theta = 1.0;
+  SupportInput top = drained(column.mesh.corner_row(column.top()), 2.0);
+  top.history = {{0.0, 0.5}, {1.0, 1.0}};
+  rise.supports = {top};
+  column.input.stages = {rise};
+  const WholeRun done = run(column.input);
+  const auto exact = [](double t) {  // at the closed base: 2 f(t) less what still has to come
+    double p = t < 1.0 ? 1.0 + t : 2.0;
+    for (int n = 0; n < 60; ++n) {
+      const double m = (n + 0.5) * kPi, a = (n % 2 == 0 ? 2.0 : -2.0) / m, z = m * m;
+      const double ramp =
+          t < 1.0 ? (1.0 - std::exp(-z * t)) / z : (std::exp(-z * (t - 1.0)) - std::exp(-z * t)) / z;
+      p -= a * (std::exp(-z * t) + ramp);
+    }
+    return p;
+  };
+  for (const int increment : {80, 200, 400, 600, 800}) {
+    const Snapshot& at = done.increments[static_cast<std::size_t>(increment - 1)];
+    const double t = 2.0 * at.load_factor;
+    EXPECT_NEAR(pressure(done, at, column.mesh.node(0, column.top())), t < 1.0 ? 1.0 + t : 2.0, 1e-12);
+    EXPECT_NEAR(pressure(done, at, column.mesh.node(0, 0)), exact(t), 2e-3) << t;
+  }
+}
+
+// A volume that comes in at the closed top with a history: all of it is in the ground at any time.
+TEST(Consolidation, ALoadOfWaterFollowsItsHistory) {
+  Column column(graded(0.0, 1.0, 4));
+  column.input.supports.pop_back();
+  StageInput rain = consolidation(4.0, 8);
+  rain.loads = {{.nodes = column.mesh.corner_row(column.top()),
+                 .x = -0.5,
+                 .unknown = "excess_pressure",
+                 .history = {{1.0, 0.2}, {2.0, 1.0}, {3.0, 0.6}}}};
+  column.input.stages = {rain};
+  VolumeObserver seen;
+  Observer* also[] = {&seen};
+  ASSERT_EQ(bench().run(build_model(column.input, bench().catalogue()), also).status, RunStatus::completed);
+  const double share[] = {0.1, 0.2, 0.6, 1.0, 0.8, 0.6, 0.6, 0.6};
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(seen.steps[i].content, share[i], 1e-10) << i;
+  EXPECT_LE(seen.difference, 1e-10);
+}
+
+// Rain on a column whose base is a drain.  Weak rain soaks in: its steady flow q = 0.5 raises the surface to q H / k.  Strong rain
+// ponds: the surface stays at the pressure of the pond, and what does not soak in runs off.
+TEST(Consolidation, RainSoaksInOrPonds) {
+  for (const double rain : {0.5, 3.0}) {
+    SCOPED_TRACE(rain);
+    Column column(graded(0.0, 1.0, 10));
+    column.input.supports.pop_back();
+    column.input.supports.push_back(drained(column.mesh.corner_row(0)));
+    constexpr double kPond = 0.8, kTime = 40.0;
+    StageInput wet = consolidation(kTime, 40);
+    wet.supports = {{.nodes = column.mesh.corner_row(column.top()),
+                     .x_value = kPond,
+                     .unknown = "excess_pressure",
+                     .exit = true}};
+    wet.loads = {{.nodes = column.mesh.corner_row(column.top()),
+                  .x = -0.5 * rain * kTime,
+                  .unknown = "excess_pressure"}};
+    column.input.stages = {wet};
+    VolumeObserver seen;
+    Observer* also[] = {&seen};
+    const WholeRun done = bench().run(build_model(column.input, bench().catalogue()), {}, also);
+    ASSERT_TRUE(done.completed()) << done.failure;
+    EXPECT_FALSE(done.warns("no water can leave"));
+    const double surface = std::min(rain, kPond);
+    EXPECT_NEAR(pressure(done, column.mesh.node(0, column.top())), surface, 1e-9);
+    EXPECT_NEAR(pressure(done, column.mesh.node(0, column.top() / 2)), 0.5 * surface, 1e-9);
+    EXPECT_LE(seen.difference, 1e-10);
+    ASSERT_EQ(seen.boundaries.size(), 2u);
+    // In the last step the base passes what soaks in.
+    const Volumes &last = seen.steps.back(), &before = seen.steps[seen.steps.size() - 2];
+    EXPECT_NEAR(last.content, before.content, 1e-9);
+    EXPECT_NEAR(seen.boundaries[0].left - seen.before[0].left, surface, 1e-9);
+    EXPECT_NEAR(seen.boundaries[1].left - seen.before[1].left, -surface, 1e-9);
+  }
+}
+
+// An exit lets water out and none in: under suction it is closed, under pressure it is a drain.
+TEST(Consolidation, AnExitOpensUnderPressureAlone) {
+  for (const double load : {1.0, -1.0}) {
+    SCOPED_TRACE(load);
+    const auto with = [&](bool exit) {
+      Column column(graded(0.0, 1.0, 8));
+      column.load(shut_in());
+      column.input.stages[0].pressures[0].normal1 = column.input.stages[0].pressures[0].normal2 = load;
+      column.input.supports.pop_back();
+      StageInput wait = consolidation(0.3, 12);
+      if (exit)
+        wait.supports = {
+            {.nodes = column.mesh.corner_row(column.top()), .unknown = "excess_pressure", .exit = true}};
+      else if (load > 0.0)
+        wait.supports = {drained(column.mesh.corner_row(column.top()))};
+      column.input.stages.push_back(wait);
+      return run(column.input);
+    };
+    const WholeRun exit = with(true), plain = with(false);
+    const double size = plain.last().u.norm();
+    EXPECT_LT((exit.last().u - plain.last().u).norm(), 1e-9 * size);
+  }
+}
 
 // Stages without load or time change nothing, in any order.
 TEST(Consolidation, EmptyStagesChangeNothing) {
@@ -756,6 +866,12 @@ TEST(Consolidation, StepsInTimeGoThroughDecksAndModelFiles) {
   wait.end_pressure = 0.125;
   wait.output_times = {0.1, 1.0 / 3.0, 2.0};
   block.input.stages.push_back(wait);
+  StageInput wet = consolidation(3.0, 2);
+  wet.supports = {drained(block.mesh.corner_row(8), 2.0)};
+  wet.supports[0].history = {{0.0, 0.5}, {2.0 / 3.0, 1.0}};
+  wet.loads = {{.nodes = {1}, .x = 0.25, .unknown = "excess_pressure", .history = {{1.0, 0.25}}}};
+  block.input.stages.push_back(wet);
+  block.input.stages.push_back(consolidation(1.0, 1));
   const Model model = build_model(block.input, bench().catalogue());
   Diagnostics notes;
   const std::string deck = sage1_text(model, notes), file = model_file_text(model, bench().catalogue(), notes);
@@ -769,6 +885,8 @@ TEST(Consolidation, StepsInTimeGoThroughDecksAndModelFiles) {
     EXPECT_EQ(again.stages[1].given_increments(), 4);
     EXPECT_EQ(again.stages[1].increments, 7);
     EXPECT_EQ(again.stages[1].end_pressure, 0.125);
+    EXPECT_EQ(again.stages[2].field_fixities[0].history, wet.supports[0].history);
+    EXPECT_EQ(again.stages[2].field_loads[0].history, wet.loads[0].history);
   }
 }
 
