@@ -9,9 +9,9 @@ namespace sage {
 
 NewtonStep FreeSurfaceSearch::attempt(double from, double to) {
   const bool eased = run_.assembly().eases();
-  if (!run_.system.has_exits() && !eased) return stepper_.attempt(from, to, Stepper::Begin::committed);
+  if (!run_.system.exits().any() && !eased) return stepper_.attempt(from, to, Stepper::Begin::committed);
   run_.state.path.policy->forget(SteppingPolicy::Past::last_step);
-  if (run_.system.has_exits()) run_.system.start_exits(run_.state.u, to - from);
+  if (run_.system.exits().any()) run_.system.start_exits(run_.state.u, to - from);
   return eased ? settle_surface(from, to) : settle_exits(from, to, false);
 }
 
@@ -29,7 +29,7 @@ NewtonStep FreeSurfaceSearch::settle_exits(double from, double to, bool from_her
       from_here = true;
     }
     if (step.outcome != StepOutcome::converged) return step;
-    if (!system.has_exits() || !system.switch_exits(state.u, state.du, state.target, to - from)) return step;
+    if (!system.exits().any() || !system.switch_exits(state.u, state.du, state.target, to - from)) return step;
   }
   throw AnalysisError("S529",
                       chattering_exits(run_.model, run_.stage(), system.exits().switched(), kMostRounds));

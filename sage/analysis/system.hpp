@@ -26,7 +26,6 @@ class System {
 
   // Seepage faces and drains.  Before a step from the unknowns u that takes this part of the stage: exits at their limit
   // are held there.
-  bool has_exits() const { return exits_.any(); }
   void start_exits(const Eigen::VectorXd& u, double part);
   // After that step, to u + du: true where some were switched, and the step is to be tried again.
   bool switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, const Eigen::VectorXd& target,
