@@ -4,110 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
-#include <numeric>
-#include <optional>
-#include <utility>
 
 #include "sage/core/units.hpp"
 #include "sage/model/foreign_element.hpp"
 #include "sage/record/state_time.hpp"
 #include "sage/record/values.hpp"
 #include "sage/record/vtk_data.hpp"
+#include "sage/record/vtu_text.hpp"
 
 namespace sage {
 
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "the VTU writer appends raw little-endian data");
-
-template <class T>
-constexpr std::string_view vtk_type() {
-  if constexpr (std::is_same_v<T, double>) return "Float64";
-  if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
-  if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
-  if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
-}
-
-// XML tags with offsets, and the data that they point to: each block is its size in bytes (UInt64), then its
-// bytes.
-class VtuText {
- public:
-  void tag(std::string_view text) {
-    xml_.back() += text;
-    xml_.back() += '\n';
-  }
-
-  // inside: what stands between the tags of the array.
-  template <class T>
-  void array(std::string_view name, int components, const std::vector<T>& values,
-             std::string_view attributes = "", std::string_view inside = "") {
-    fmt::format_to(std::back_inserter(xml_.back()),
-                   "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" "
-                   "offset=\"",
-                   vtk_type<T>(), name, components, attributes);
-    xml_.push_back(inside.empty() ? "\"/>\n" : fmt::format("\">{}</DataArray>\n", inside));
-    const std::uint64_t bytes = values.size() * sizeof(T);
-    std::string& block = blocks_.emplace_back();
-    block.reserve(sizeof bytes + bytes);
-    block.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
-    block.append(reinterpret_cast<const char*>(values.data()), bytes);
-  }
-
-  std::string text() && {
-    std::vector<std::size_t> offset(blocks_.size());
-    std::string data;
-    for (std::size_t i : order()) {
-      offset[i] = data.size();
-      data += std::exchange(blocks_[i], {});
-    }
-    std::string all;
-    for (std::size_t i = 0; i < xml_.size(); ++i) {
-      all += xml_[i];
-      if (i < offset.size()) all += std::to_string(offset[i]);
-    }
-    all += "  <AppendedData encoding=\"raw\">\n_";
-    all += data;
-    all += "\n  </AppendedData>\n</VTKFile>\n";
-    return all;
-  }
-
- private:
-  // Of the blocks in the data.  meshio 5.3 makes base64 of them, gives each tag its new offset as it goes, and
-  // finds the next tag by the old one: no block may begin where one before it begins in base64.
-  std::vector<std::size_t> order() const {
-    std::vector<std::size_t> list(blocks_.size());
-    std::iota(list.begin(), list.end(), 0);
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (const auto found = order_from(list)) return *found;
-      std::rotate(list.begin(), list.begin() + 1, list.end());
-    }
-    return list;
-  }
-
-  // Nearest to this order; nothing where that finds none.
-  std::optional<std::vector<std::size_t>> order_from(std::vector<std::size_t> left) const {
-    std::vector<std::size_t> order, taken;
-    std::size_t raw = 0, base64 = 0;
-    while (!left.empty()) {
-      taken.push_back(base64);
-      const auto next = std::ranges::find_if(left, [&](std::size_t i) {
-        return left.size() == 1 || std::ranges::count(taken, raw + blocks_[i].size()) == 0;
-      });
-      if (next == left.end()) return std::nullopt;
-      raw += blocks_[*next].size();
-      base64 += (blocks_[*next].size() + 2) / 3 * 4;
-      order.push_back(*next);
-      left.erase(next);
-    }
-    return order;
-  }
-
-  std::vector<std::string> xml_{1}, blocks_;  // between two pieces of XML stands the offset of a block
-};
 
 // "psi, compression positive" where VTK keeps the unit of an array: vtkDataArray::UNITS_LABEL.
 std::string unit_label(const FieldEntry& field, const UnitSystem& units) {
@@ -181,11 +90,7 @@ std::string vtu_text(const Model& model, const Solution& solution, std::string_v
   const NodalLayout layout = nodal_layout(model, *solution.activity);
   const VtkGrid grid = vtk_grid(model, layout);
   const FieldTable table = fields_of(model);
-  VtuText vtu;
-  vtu.tag(
-      "<?xml version=\"1.0\"?>\n" + head(model, comment) +
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">");
-  vtu.tag("  <UnstructuredGrid>");
+  VtuText vtu(head(model, comment));
   if (step != nullptr) add_step(vtu, model, *step);
   vtu.tag(fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", layout.entries(),
                       grid.types.size()));
@@ -196,8 +101,6 @@ std::string vtu_text(const Model& model, const Solution& solution, std::string_v
   vtu.tag("      <CellData>");
   add_arrays(vtu, vtk_cell_data(model, solution, table), model.units);
   vtu.tag("      </CellData>");
-  vtu.tag("    </Piece>");
-  vtu.tag("  </UnstructuredGrid>");
   return std::move(vtu).text();
 }
 

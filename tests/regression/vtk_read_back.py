@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Has VTK (Debian's python3-vtk9) and meshio (python3-meshio) read what `sagefe run --vtu` writes, and compares with the CSV files.
+"""Has VTK (Debian's python3-vtk9) and meshio (python3-meshio) read what `sagefe run --vtu` and `sagefe bounds` write, and compares with the CSV files.
 
 Usage: vtk_read_back.py SAGEFE SOURCE_FOLDER       exit code 77: a package is missing
 """
@@ -33,6 +33,7 @@ CASES = [  # deck and its area, options, types of solids and of interfaces
     ("chapter7/dp_285/deck.dat", SLENDER, [], {9}, {3}),
 ]
 BEAMS = ("cande_level3/candejar_input_test1.cid", ["--partial"])
+BOUNDS, SLOPE = "slopes/one_to_one_line/deck.dat", 96.0  # and its area, m^2
 MESHIO = {3: "line", 21: "line3", 5: "triangle", 22: "triangle6", 9: "quad", 23: "quad8", 28: "quad9"}
 
 
@@ -186,6 +187,27 @@ def check_beams(program, source, folder):
         expect((known == ~line).all(), f"{name} is known in {known[line].sum()} beams and {known[~line].sum()} of {(~line).sum()} solids")
 
 
+def check_bounds(program, source, folder):
+    """Fields of bounds, beside bounds.fields.csv; six-node triangles that fill the outline of the slope."""
+    path = source / "legacy_inputs" / BOUNDS
+    done = subprocess.run([program, "bounds", path, "--elements", "0", "--coarsen", "-o", folder, "-q"], capture_output=True, text=True)
+    expect(done.returncode == 0, f"bounds: exit code {done.returncode}\n{done.stderr}")
+    file = pathlib.Path(folder) / "one_to_one_line.bounds.vtu"
+    state = State(file)
+    check_cells(state, SLOPE, {22}, set())
+    table = rows(pathlib.Path(folder) / "one_to_one_line.bounds.fields.csv")
+    expect(len(table) == 3 * len(state.types) > 0, f"{len(table)} corners of {len(state.types)} triangles")
+    for k, row in enumerate(table):
+        point = 6 * (k // 3) + k % 3
+        near(state.at[point][:2], [number(row["x"]), number(row["y"])], "corner")
+        near(state.points["velocity"][point], [number(row["velocity_x"]), number(row["velocity_y"]), 0.0], "velocity", 1.0)
+        for name in ("stress_xx", "stress_yy", "stress_xy"):
+            near([state.points[name].ravel()[point]], [number(row[name])], name, 100.0)
+    expect(abs(state.cells["part_of_gap"].sum() - 1.0) < 1e-9, "parts of the gap")
+    expect(state.points["pore_pressure"].max() > 1.0, "no water")
+    check_meshio(state, file)
+
+
 def check(program, source, folder, case):
     deck, area, options, solids, lines = case
     state, files, out, stem = results(program, source, folder, deck, options)
@@ -204,7 +226,7 @@ def main():
     program, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     failed = 0
     checks = [(f"{case[0]} {' '.join(case[2])}", functools.partial(check, case=case)) for case in CASES]
-    for name, one in [*checks, (BEAMS[0], check_beams)]:
+    for name, one in [*checks, (BEAMS[0], check_beams), (BOUNDS + ", bounds", check_bounds)]:
         with tempfile.TemporaryDirectory() as folder:
             try:
                 one(program, source, folder)
