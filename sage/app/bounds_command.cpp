@@ -63,6 +63,13 @@ bounds::Quantity quantity_of(const BoundsOptions& options, const Model& model, i
       options.wanted == Wanted::strength || (options.wanted == Wanted::automatic && !loads)
           ? bounds::Quantity::strength
           : bounds::Quantity::load;
+  if (quantity == bounds::Quantity::strength && ground.domain.moved())
+    throw InputError(
+        "S616", {options.deck, 0, 0, 0},
+        fmt::format(
+            "stage {} moves supports: a movement is no load that could exceed the strength, and so has no "
+            "factor of safety; --of load bounds the force that moves them",
+            one.number));
   if (quantity == bounds::Quantity::load && !ground.has_live)
     throw InputError(
         "S574", {options.deck, 0, 0, 0},

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "sage/builder/builder.hpp"
+#include "sage/core/short_names.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/law_table.hpp"
@@ -77,9 +78,21 @@ std::vector<Phase> phases_of(const Model& model, int g) {
   return phases;
 }
 
-bool is_plain(const std::vector<Phase>& phases) {
+// Parameters of a material that options place: index, and value by place.
+std::vector<std::pair<std::size_t, const PlacedParameter*>> placed_in(const BuildOptions& options,
+                                                                      const Material& material) {
+  std::vector<std::pair<std::size_t, const PlacedParameter*>> placed;
+  for (const PlacedParameter& one : options.placed)
+    if (one.material == material.name || one.material == std::to_string(material.number))
+      if (const int index = parameter_place(*material.entry, one.parameter); index >= 0)
+        placed.emplace_back(static_cast<std::size_t>(index), &one);
+  return placed;
+}
+
+bool is_plain(const Builder& b, const std::vector<Phase>& phases) {
   return phases.empty() ||
-         (phases.size() == 1 && phases[0].fields.empty() && !phases[0].held && !phases[0].anew);
+         (phases.size() == 1 && phases[0].fields.empty() && !phases[0].held && !phases[0].anew &&
+          placed_in(b.options, b.model.materials[static_cast<std::size_t>(phases[0].material)]).empty());
 }
 
 // Effective vertical stress (compression +) of the ground before anything is done to it: as initial cards state it, or else
@@ -126,13 +139,14 @@ bool wants_stress(const InitialStress* field) {
 // The laws of a group's twin material, and which of them its points have.
 class TableMaker {
  public:
-  TableMaker(const Model& model, const Group& group, Material& twin)
-      : model_(model), group_(group), twin_(twin) {}
+  TableMaker(const Builder& b, const Group& group, Material& twin)
+      : model_(b.model), options_(b.options), group_(group), twin_(twin) {}
 
   LawChoice choice_of(const Phase& phase) {
     LawChoice choice{phase.stage, phase.anew, {}, phase.where};
     const Material& material = model_.materials[static_cast<std::size_t>(phase.material)];
-    if (phase.fields.empty()) {
+    const auto placed = placed_in(options_, material);
+    if (phase.fields.empty() && placed.empty()) {
       choice.of_point = {place(material, material.parameters, phase.held)};
       return choice;
     }
@@ -145,6 +159,7 @@ class TableMaker {
       for (int p = 0; p < group_.element->traits().points; ++p) {
         std::vector<double> parameters = material.parameters;
         const Vector2 at = group_.element->position(x, p);
+        for (const auto& [index, one] : placed) parameters[index] = one->value(at);
         const double stress = ground ? ground->at(e, p, at) : 0.0;
         for (const InitialStress* field : phase.fields)
           parameters[static_cast<std::size_t>(field->value[0]) - 1] += growth_at(*field, at.y(), stress);
@@ -165,6 +180,7 @@ class TableMaker {
   using Key = std::tuple<int, bool, std::vector<double>>;
 
   const Model& model_;
+  const BuildOptions& options_;
   const Group& group_;
   Material& twin_;
   std::map<Key, int> places_;
@@ -179,9 +195,15 @@ void make_table(Builder& b, int g, const std::vector<Phase>& phases) {
                    group_name(group) +
                        ": the routine of its material states its first values, and so its law can't "
                        "differ by point or stage");
+  if (group.flow() || !(group.solid() || group.interface() || group.entry->law_size == 1))
+    return b.error(
+        "S617", b.at_line(0),
+        group_name(group) +
+            ": parameters that differ from place to place are for solids, interfaces and bars; it is of " +
+            group.entry->name);
   Material twin = twin_of(model.material_of(group), model.units);
   twin.twin = true;
-  TableMaker maker(model, group, twin);
+  TableMaker maker(b, group, twin);
   for (const Phase& phase : phases) group.choices.push_back(maker.choice_of(phase));
   try {
     twin.law = make_law(twin, model.units);
@@ -189,7 +211,7 @@ void make_table(Builder& b, int g, const std::vector<Phase>& phases) {
     const auto& rows = twin.entry->parameters;
     const auto at = static_cast<std::size_t>(std::max(0, error.parameter()));
     const bool known = error.parameter() >= 0 && at < rows.size();
-    b.error("S611", phases.back().where,
+    b.error("S611", phases.back().where.file.empty() ? b.at_line(0) : phases.back().where,
             group_name(group) + ": somewhere in it the law can't have such parameters: " + error.what() +
                 (known ? " [" + rows[at].name + "]" : ""));
     return;
@@ -359,7 +381,7 @@ bool read_law_card(Builder& b, const CardView& card, bool in_stage, InitialStres
 
 void build_laws(Builder& b) {
   const Model& model = b.model;
-  if (std::ranges::none_of(model.initials, changes_law) &&
+  if (b.options.placed.empty() && std::ranges::none_of(model.initials, changes_law) &&
       std::ranges::none_of(model.stages,
                            [](const Stage& stage) { return std::ranges::any_of(stage.initials, changes_law); }))
     return;
@@ -377,7 +399,7 @@ void build_laws(Builder& b) {
   warn_of_weights(b);
   if (b.problems.errors() > before) return;
   for (std::size_t g = 0; g < b.model.groups.size(); ++g)
-    if (const std::vector<Phase> phases = phases_of(b.model, static_cast<int>(g)); !is_plain(phases))
+    if (const std::vector<Phase> phases = phases_of(b.model, static_cast<int>(g)); !is_plain(b, phases))
       make_table(b, static_cast<int>(g), phases);
 }
 

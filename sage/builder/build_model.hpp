@@ -33,6 +33,12 @@ struct HeadRequest {
 // says why the file can't serve.
 using HeadReader = std::function<std::vector<double>(const HeadRequest&)>;
 
+// A parameter of a law that differs from place to place.
+struct PlacedParameter {
+  std::string material, parameter;              // name or number of the material; the law's name of it
+  std::function<double(const Vector2&)> value;  // at a place, as the deck writes it
+};
+
 struct BuildOptions : MeshOptions {
   // Replaces the deck's formulation code of solid groups where it exists; -1 = as the deck says.
   int formulation = -1;
@@ -49,6 +55,7 @@ struct BuildOptions : MeshOptions {
   std::vector<PartialFactors> factors;  // one set at most; empty = none
   ActionStages actions;                 // with factors
   bool points_outside = false;          // a requested point may lie outside: its report is blank then
+  std::vector<PlacedParameter> placed = {};
 };
 
 // Throws InputError with every mistake found.  Warnings and notes end up in Model::diagnostics.

@@ -282,6 +282,12 @@ void NamedModel::set(const NamedValue& value) {
   }
 }
 
+void NamedModel::vary(const std::string& name, std::function<double(const Vector2&)> value) {
+  (void)place(name);
+  const std::size_t key = name.find('.') + 1, parameter = name.rfind('.') + 1;
+  options_.placed.push_back({name.substr(key, parameter - 1 - key), name.substr(parameter), std::move(value)});
+}
+
 void NamedModel::expect_apart(const std::vector<std::string>& names) const {
   using Spot = std::tuple<int, std::string, int>;
   std::map<Spot, std::string> taken;

@@ -28,6 +28,8 @@ class NamedModel {
   // Throws InputError at the deck: S730 for a name that it lacks, with names that are near; S731 for a value that can't be
   // meant.  What the model makes of the value shows in build().
   void set(const NamedValue& value);
+  // A parameter of a material that differs from place to place, in place of the deck's number.  Throws S730 as set() does.
+  void vary(const std::string& name, std::function<double(const Vector2&)> value);
   // Throws as set() does, and changes nothing.
   void check(const NamedValue& value) const;
   // The number that has this name; NaN where the deck leaves it blank, or it is a text.  Throws InputError (S730).

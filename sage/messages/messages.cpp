@@ -1211,6 +1211,16 @@ constexpr MessageEntry kMessages[] = {
     {"S615", "the unit weight does not change with the material",
      "A group that goes on with another material keeps the weight with which it was loaded.",
      "Give both materials the same unit weight, or add the difference as a load."},
+    {"S616", "a movement has no factor of safety",
+     "Supports that move press on the ground with whatever force it can carry: with less strength that force "
+     "is "
+     "smaller, and the ground never fails.",
+     "Bound the force with --of load; or choose a stage in which loads act, with --stage."},
+    {"S617", "the value can't differ from place to place",
+     "A random field is of a parameter of a law: every point has its own. Loads, unit weights and elements of "
+     "flow "
+     "have none.",
+     "Leave correlation_length out, or name a parameter: material.NAME.PARAMETER (sagefe list materials)."},
     {"S620", "sagefe report found no result file",
      "A page is made of the result file of a run, STEM.h5, and of the tables and the listing beside it. A "
      "plain "

@@ -64,6 +64,10 @@ std::uint64_t fingerprint(const Model& model) {
   for (const Material& m : model.materials) add(archive, m.number, m.name, m.code, m.parameters, m.unit_weight);
   for (const Group& g : model.groups)
     add(archive, g.number, g.name, g.element_code, g.element_name, g.material, g.element_numbers, g.nodes);
+  for (const Material& m : model.materials)
+    for (const LawVariant& variant : m.variants) add(archive, variant.parameters);
+  for (const Group& g : model.groups)
+    for (const LawChoice& choice : g.choices) add(archive, choice.stage, choice.of_point);
   for (const Group& g : model.groups)
     if (g.overlay) add(archive, g.number, g.overlay);
   for (const Group& g : model.groups)

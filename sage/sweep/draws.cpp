@@ -116,8 +116,7 @@ double Distribution::at(double z) const {
   return std::clamp(logs ? std::exp(value) : value, low, high);
 }
 
-Eigen::MatrixXd draw(const std::vector<Distribution>& variables, const Eigen::MatrixXd& correlation, int draws,
-                     unsigned long long seed) {
+Eigen::MatrixXd normal_factor(const std::vector<Distribution>& variables, const Eigen::MatrixXd& correlation) {
   const auto count = static_cast<Eigen::Index>(variables.size());
   Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
@@ -127,7 +126,13 @@ Eigen::MatrixXd draw(const std::vector<Distribution>& variables, const Eigen::Ma
   const Eigen::LLT<Eigen::MatrixXd> factors(normal);
   if (factors.info() != Eigen::Success)
     throw std::invalid_argument("the correlation matrix is not positive definite: no variables have it");
-  const Eigen::MatrixXd lower = factors.matrixL();
+  return factors.matrixL();
+}
+
+Eigen::MatrixXd draw(const std::vector<Distribution>& variables, const Eigen::MatrixXd& correlation, int draws,
+                     unsigned long long seed) {
+  const auto count = static_cast<Eigen::Index>(variables.size());
+  const Eigen::MatrixXd lower = normal_factor(variables, correlation);
   std::mt19937_64 numbers(seed);
   Eigen::MatrixXd values(draws, count);
   Eigen::VectorXd z(count);

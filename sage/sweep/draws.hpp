@@ -25,6 +25,10 @@ struct Distribution {
 double normal_share(double z);
 double normal_quantile(double share);
 
+// Lower factor of the correlation matrix of the normal variables behind values with the correlation `correlation` (Nataf's model).
+// Throws std::invalid_argument where no such variables exist.
+Eigen::MatrixXd normal_factor(const std::vector<Distribution>& variables, const Eigen::MatrixXd& correlation);
+
 // One row a draw, one column a variable.  Draw i does not depend on how many there are.  correlation: of the values; what the
 // normal variables behind them need follows from it (Nataf's model).  Throws std::invalid_argument where no such variables
 // exist.

@@ -61,6 +61,9 @@ class StudyReader : private TomlFile {
   void pairs(std::vector<Block>& blocks);
   void random(std::vector<Block>& blocks);
   Distribution distribution(const Named& one) const;
+  std::optional<Vector2> correlation_length(const Named& one) const;
+  void add_draws(Block& block, const std::vector<FieldVariable>& variables, const Eigen::MatrixXd& matrix,
+                 int draws, int seed);
   Eigen::MatrixXd correlation(const toml::node* node, const std::vector<std::string>& names) const;
   void multiply(const std::vector<Block>& blocks);
   void single_cases();
@@ -70,6 +73,7 @@ class StudyReader : private TomlFile {
   const toml::table& root_;
   Study study_;
   std::set<std::string> claimed_;
+  std::vector<std::string> field_names_;
 };
 
 double StudyReader::number(const toml::node& node, const std::string& name) const {
@@ -175,7 +179,7 @@ Distribution StudyReader::distribution(const Named& one) const {
   const toml::table* part = one.node->as_table();
   if (part == nullptr || !part->contains("distribution"))
     wrong(*one.node, one.name + ": wanted {distribution = \"normal\", mean = M, sd = S} or the like");
-  known_keys(*part, {"distribution", "mean", "sd", "cov", "low", "high"});
+  known_keys(*part, {"distribution", "mean", "sd", "cov", "low", "high", "correlation_length"});
   const std::string shape = text(*part, "distribution", true);
   const auto has = [&](const char* key) { return part->contains(key); };
   const auto get = [&](const char* key) { return number(*part->get(key), one.name + "." + key); };
@@ -201,6 +205,20 @@ Distribution StudyReader::distribution(const Named& one) const {
   if (d.shape == Shape::lognormal && !(d.mean > 0.0 && d.high > 0.0))
     wrong(*part, one.name + ": a lognormal value is above 0");
   return d;
+}
+
+// Of a variable that differs from place to place: one number, or one each in x and y.
+std::optional<Vector2> StudyReader::correlation_length(const Named& one) const {
+  const toml::node* node = one.node->as_table()->get("correlation_length");
+  if (node == nullptr) return {};
+  Vector2 length;
+  if (const toml::array* both = node->as_array(); both != nullptr && both->size() == 2)
+    length = {number((*both)[0], one.name), number((*both)[1], one.name)};
+  else
+    length.setConstant(number(*node, one.name + ".correlation_length"));
+  if (!(length.minCoeff() > 0.0))
+    wrong(*node, one.name + ": a correlation length is above 0, or a list of two: in x and in y");
+  return length;
 }
 
 Eigen::MatrixXd StudyReader::correlation(const toml::node* node, const std::vector<std::string>& names) const {
@@ -236,27 +254,48 @@ void StudyReader::random(std::vector<Block>& blocks) {
   const toml::table* variables = part->get("variables")->as_table();
   if (variables == nullptr) wrong(*part->get("variables"), "[random.variables] must be a table");
   Block block;
-  std::vector<Distribution> distributions;
+  std::vector<FieldVariable> all;
   for (const Named& one : names_in(*variables)) {
     claim(one);
     block.names.push_back(one.name);
-    distributions.push_back(distribution(one));
+    const std::optional<Vector2> length = correlation_length(one);
+    all.push_back({distribution(one), length.value_or(Vector2::Zero())});
   }
   if (block.names.empty()) wrong(*variables, "[random.variables] names no variable");
   study_.random = block.names;
-  Eigen::MatrixXd values;
   try {
-    values = draw(distributions, correlation(part->get("correlation"), block.names), draws,
-                  static_cast<unsigned long long>(seed));
+    add_draws(block, all, correlation(part->get("correlation"), block.names), draws, seed);
   } catch (const std::invalid_argument& error) {
     wrong(part->contains("correlation") ? *part->get("correlation") : *part, error.what());
   }
-  for (Eigen::Index row = 0; row < values.rows(); ++row) {
-    std::vector<Value> one;
-    for (Eigen::Index c = 0; c < values.cols(); ++c) one.emplace_back(values(row, c));
-    block.rows.push_back(std::move(one));
-  }
   blocks.push_back(std::move(block));
+}
+
+// Numbers, and the number of the draw for what differs from place to place (its correlation length is not zero).
+void StudyReader::add_draws(Block& block, const std::vector<FieldVariable>& variables,
+                            const Eigen::MatrixXd& matrix, int draws, int seed) {
+  std::vector<Eigen::Index> kinds[2];  // places of numbers, of fields
+  for (std::size_t i = 0; i < variables.size(); ++i)
+    kinds[variables[i].correlation_length.isZero(0.0) ? 0 : 1].push_back(static_cast<Eigen::Index>(i));
+  for (const Eigen::Index a : kinds[0])
+    for (const Eigen::Index b : kinds[1])
+      if (matrix(a, b) != 0.0)
+        throw std::invalid_argument("a variable with a correlation_length and one without are not correlated");
+  std::vector<Distribution> numbers;
+  std::vector<FieldVariable> fields;
+  for (const Eigen::Index a : kinds[0]) numbers.push_back(variables[static_cast<std::size_t>(a)].distribution);
+  for (const Eigen::Index b : kinds[1]) fields.push_back(variables[static_cast<std::size_t>(b)]);
+  const auto wide = static_cast<unsigned long long>(seed);
+  const Eigen::MatrixXd values = draw(numbers, matrix(kinds[0], kinds[0]), draws, wide);
+  if (!fields.empty())
+    study_.fields = std::make_shared<RandomFields>(std::move(fields), matrix(kinds[1], kinds[1]), wide);
+  for (int row = 0; row < draws; ++row) {
+    std::vector<Value>& one = block.rows.emplace_back(variables.size(), Value(row + 1.0));
+    for (std::size_t c = 0; c < kinds[0].size(); ++c)
+      one[static_cast<std::size_t>(kinds[0][c])] = values(row, static_cast<Eigen::Index>(c));
+  }
+  for (std::size_t b = 0; b < kinds[1].size(); ++b)
+    field_names_.push_back(block.names[static_cast<std::size_t>(kinds[1][b])]);
 }
 
 // Every row of a block with every row of the others; the last one varies first.
@@ -370,19 +409,25 @@ Study StudyReader::read() {
     study_.plot_x = text(*part, "x");
     study_.plot_y = text(*part, "y");
   }
+  study_.field_of.assign(study_.names.size(), -1);
+  for (std::size_t f = 0; f < field_names_.size(); ++f) {
+    const auto name = std::ranges::find(study_.names, field_names_[f]) - study_.names.begin();
+    study_.field_of[static_cast<std::size_t>(name)] = static_cast<int>(f);
+  }
   if (study_.cases.empty()) wrong(root_, "the study has no case: give [grid], [pairs], [random] or [[case]]");
   return std::move(study_);
 }
 
 }  // namespace
 
-std::vector<NamedValue> Study::values(std::size_t index) const {
-  std::vector<NamedValue> values = fixed;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const auto* number = std::get_if<double>(&cases[index][i]);
-    if (number == nullptr || !std::isnan(*number)) values.push_back({names[i], cases[index][i]});
-  }
-  return values;
+void Study::put(NamedModel& model, std::size_t name, const std::variant<double, std::string>& value) const {
+  const auto* number = std::get_if<double>(&value);
+  if (number != nullptr && std::isnan(*number)) return;
+  const int field = name < field_of.size() ? field_of[name] : -1;
+  if (field < 0)
+    model.set({names[name], value});
+  else
+    model.vary(names[name], fields->field(static_cast<std::size_t>(field), static_cast<int>(*number)));
 }
 
 Study read_study(const std::string& file) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sage/builder/named_model.hpp"
+#include "sage/sweep/random_fields.hpp"
 
 namespace sage::sweep {
 
@@ -30,9 +31,13 @@ struct Study {
   std::vector<std::string> allowed;  // codes of warnings that are no failures
   std::optional<FailureRule> failure;
   std::vector<std::string> random;  // names of those that are drawn
-  std::string plot_x, plot_y;       // empty: the first name, the first quantity
+  // Variables that differ from place to place: their value in a case is the number of the draw.
+  std::shared_ptr<const RandomFields> fields;
+  std::vector<int> field_of;   // by name: variable of `fields`; -1 = one value everywhere
+  std::string plot_x, plot_y;  // empty: the first name, the first quantity
 
-  std::vector<NamedValue> values(std::size_t index) const;  // of a case
+  // Gives a model the value of a case for a name; NaN changes nothing.
+  void put(NamedModel& model, std::size_t name, const std::variant<double, std::string>& value) const;
 };
 
 // Throws InputError, with the line, for what is wrong or unknown.

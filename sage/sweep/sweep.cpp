@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "sage/core/short_names.hpp"
 #include "sage/messages/near_names.hpp"
 #include "sage/model/fingerprint.hpp"
 #include "sage/platform/checksum.hpp"
@@ -87,6 +88,7 @@ Sweep::Sweep(Study study, const Deck& deck, const Catalogue& catalogue, const Bu
   for (const NamedValue& value : study_.fixed) check_used(value.name);
   for (std::size_t name = 0; name < study_.names.size(); ++name) {
     check_used(study_.names[name]);
+    check_field(name);
     check_read(name);
   }
   allowed_ = study_.allowed;
@@ -144,6 +146,23 @@ void Sweep::check_used(const std::string& name) const {
   throw InputError("S734", {study_.file, 0, 0, 0}, name + " is read by nothing: no group has this material");
 }
 
+// A field is of a parameter of a law: points have laws of their own, and nothing else.
+void Sweep::check_field(std::size_t name) const {
+  if (study_.field_of[name] < 0) return;
+  const std::string& full = study_.names[name];
+  const std::string parameter = full.substr(full.rfind('.') + 1);
+  const bool known = std::ranges::any_of(model_.materials, [&](const Material& material) {
+    return (full == "material." + material.name + "." + parameter ||
+            full == "material." + std::to_string(material.number) + "." + parameter) &&
+           parameter_place(*material.entry, parameter) >= 0;
+  });
+  if (!known)
+    throw InputError("S617", {study_.file, 0, 0, 0},
+                     full +
+                         " can't differ from place to place: a correlation_length is for parameters of laws, "
+                         "material.NAME.PARAMETER");
+}
+
 // Two values that differ must give two models.
 void Sweep::check_read(std::size_t name) const {
   const auto as_in_deck = [](const auto& value) {
@@ -158,8 +177,7 @@ void Sweep::check_read(std::size_t name) const {
   if (other == study_.cases.end()) return;
   const auto model_of = [&](const std::variant<double, std::string>& value) {
     NamedModel one = named_;
-    const auto* number = std::get_if<double>(&value);
-    if (number == nullptr || !std::isnan(*number)) one.set({study_.names[name], value});
+    study_.put(one, name, value);
     return fingerprint(one.build());
   };
   bool alike = false;
@@ -183,11 +201,7 @@ std::string Sweep::new_warning(const Model& model) const {
 
 Model Sweep::build(std::size_t index) const {
   NamedModel one = named_;
-  for (std::size_t i = 0; i < study_.names.size(); ++i) {
-    const auto& value = study_.cases[index][i];
-    const auto* number = std::get_if<double>(&value);
-    if (number == nullptr || !std::isnan(*number)) one.set({study_.names[i], value});
-  }
+  for (std::size_t i = 0; i < study_.names.size(); ++i) study_.put(one, i, study_.cases[index][i]);
   return one.build();
 }
 

@@ -51,6 +51,7 @@ class Sweep {
  private:
   class Work;
   void check_values() const;
+  void check_field(std::size_t name) const;
   void check_read(std::size_t name) const;
   void check_used(const std::string& name) const;
   void find_quantities();

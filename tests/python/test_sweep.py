@@ -413,3 +413,46 @@ def test_without_slurm(tmp_path):
     assert "#SBATCH --array=1-2" in (tmp_path / "parts" / "study.slurm.sh").read_text()
     assert (tmp_path / "parts" / "study.sweep.csv").read_bytes() == (tmp_path / "whole" / "study.sweep.csv").read_bytes()
 
+
+FIELDS = """
+collect = ["report1.measured_deviator"]
+[random]
+draws = 4
+seed = 12
+[random.variables]
+material.1.E = {distribution = "lognormal", mean = 3000, cov = 0.3, correlation_length = [0.4, 0.2]}
+"""
+
+
+def test_random_fields_are_another_in_each_draw(tmp_path):
+    """A specimen of E between the harmonic and the arithmetic mean of its points: draws differ, and by less than single values
+    would (cov .3), since the specimen is several correlation lengths long.  The same study gives the same bytes."""
+    sweep(study(tmp_path, FIELDS), tmp_path)
+    first = (tmp_path / "study.sweep.csv").read_bytes()
+    deviators = [float(row["report1.measured_deviator"]) for row in rows_of(tmp_path)]
+    assert len(set(deviators)) == 4
+    (even,) = (float(row["report1.measured_deviator"]) for row in _even(tmp_path))
+    mean = sum(deviators) / 4
+    assert 0.7 * even < mean < 1.1 * even
+    assert max(abs(one / mean - 1) for one in deviators) < 0.3
+    sweep(study(tmp_path, FIELDS), tmp_path / "again", "-j", "1")
+    assert (tmp_path / "again" / "study.sweep.csv").read_bytes() == first
+
+
+def _even(folder):
+    sweep(study(folder, 'collect = ["report1.measured_deviator"]\n[grid]\nmaterial.1.E = [3000]\n', name="even"), folder)
+    return rows_of(folder, "even")
+
+
+@pytest.mark.parametrize("name, words", [
+    ("stage.2.displacement_factor", "can't differ from place to place"),
+    ("material.1.unit_weight", "can't differ from place to place"),
+])
+def test_fields_are_of_parameters_of_laws(tmp_path, name, words):
+    text = FIELDS.replace("material.1.E", name)
+    assert words in sweep(study(tmp_path, text), tmp_path, code=2).stderr
+
+
+def test_field_variables_are_checked(tmp_path):
+    done = sweep(study(tmp_path, FIELDS.replace("[0.4, 0.2]", "0")), tmp_path, code=2)
+    assert "S732" in done.stderr and "above 0" in done.stderr

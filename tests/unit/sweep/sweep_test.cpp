@@ -7,6 +7,7 @@
 #include "sage/sweep/draws.hpp"
 #include "sage/sweep/journal.hpp"
 #include "sage/sweep/probability.hpp"
+#include "sage/sweep/random_fields.hpp"
 #include "sage/sweep/study.hpp"
 
 namespace sage::sweep {
@@ -60,6 +61,52 @@ TEST(SweepDraws, HaveTheirMomentsAndCorrelations) {
   EXPECT_GT(values.col(1).minCoeff(), 0.0);
   EXPECT_GE(values.col(2).minCoeff(), 1.0);
   EXPECT_LE(values.col(2).maxCoeff(), 4.0);
+}
+
+// Of 2000 draws of two fields, at places apart by the distance r in correlation lengths: means, variances and correlations
+// within 3 standard errors (of normal variables) of 0, 1 and exp(-r).
+TEST(SweepFields, HaveTheirMomentsAndCorrelations) {
+  constexpr int kDraws = 2000;
+  const double n = kDraws, rho = -0.5;
+  const FieldVariable c{{.shape = Shape::normal, .mean = 20.0, .deviation = 4.0}, {10.0, 2.0}},
+      phi{{.shape = Shape::normal, .mean = 30.0, .deviation = 3.0}, {10.0, 2.0}};
+  Eigen::MatrixXd both(2, 2);
+  both << 1.0, rho, rho, 1.0;
+  const RandomFields fields({c, phi}, both, 11);
+  const Vector2 places[] = {{3.0, -7.0}, {8.0, -7.0}, {3.0, -6.0}, {23.0, -3.0}};
+  Eigen::MatrixXd values(kDraws, 5);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const auto field = fields.field(0, draw + 1);
+    for (int i = 0; i < 4; ++i) values(draw, i) = (field(places[i]) - 20.0) / 4.0;
+    values(draw, 4) = (fields.field(1, draw + 1)(places[0]) - 30.0) / 3.0;
+  }
+  const double wanted[] = {1.0, std::exp(-0.5), std::exp(-0.5), std::exp(-std::sqrt(8.0)), rho};
+  for (int i = 0; i < 5; ++i) {
+    const Sample s = sample_of(values.col(i));
+    EXPECT_NEAR(s.mean, 0.0, 3.0 / std::sqrt(n)) << i;
+    EXPECT_NEAR(s.deviation, 1.0, 3.0 / std::sqrt(2.0 * n)) << i;
+    if (i == 0) continue;
+    EXPECT_NEAR(correlation_of(values.col(0), values.col(i)), wanted[i],
+                3.0 * (1.0 - wanted[i] * wanted[i]) / std::sqrt(n))
+        << i;
+  }
+}
+
+// The same draw has the same values, another has others; correlated fields share their lengths.
+TEST(SweepFields, AreThoseOfTheirDraw) {
+  const FieldVariable one{{.shape = Shape::lognormal, .mean = 20.0, .deviation = 4.0}, {10.0, 2.0}};
+  FieldVariable other = one;
+  const Eigen::MatrixXd apart = Eigen::MatrixXd::Identity(2, 2);
+  const RandomFields fields({one, other}, apart, 3), again({one, other}, apart, 3);
+  const Vector2 place(1.0, 2.0);
+  EXPECT_EQ(fields.field(1, 5)(place), again.field(1, 5)(place));
+  EXPECT_NE(fields.field(1, 5)(place), fields.field(1, 6)(place));
+  EXPECT_NE(fields.field(1, 5)(place), fields.field(0, 5)(place));
+  other.correlation_length.x() = 5.0;
+  Eigen::MatrixXd together = apart;
+  together(0, 1) = together(1, 0) = 0.3;
+  EXPECT_NO_THROW((RandomFields({one, other}, apart, 3)));
+  EXPECT_THROW((RandomFields({one, other}, together, 3)), std::invalid_argument);
 }
 
 TEST(SweepDraws, AreTheSameForMoreDraws) {
