@@ -19,6 +19,7 @@
 #include "sage/app/progress.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/surroundings.hpp"
+#include "sage/app/wrap.hpp"
 #include "sage/convergence/convergence.hpp"
 #include "sage/model/coarse_shape.hpp"
 #include "sage/record/discretisation.hpp"
@@ -338,7 +339,7 @@ class Table {
         const std::filesystem::path& path)
       : screen_(screen), file_(path) {
     const ProgressPause pause;
-    fmt::print(screen_, "{}\n  {:>4} {:>9} {:>9} {:>18} {:>12} {:>9}  {}\n", title, "mesh", "elements", "dofs",
+    fmt::print(screen_, "{}\n  {:>4} {:>8} {:>8} {:>16} {:>8} {:>9}  {}\n", title, "mesh", "elements", "dofs",
                quantity, "error", "seconds", "options");
     file_.text() = "# " + title +
                    "\n# finer meshes until the reports are certain; error: estimate, see the manual\n" +
@@ -346,9 +347,12 @@ class Table {
   }
   void row(std::size_t mesh, const Row& row, const Limit& limit, double value, const std::string& options) {
     const ProgressPause pause;
-    fmt::print(screen_, "  {:>4} {:>9} {:>9} {:>18.10g} {:>12} {:>9.3f}  {}\n", mesh, row.elements, row.dofs,
-               value, std::isfinite(limit.error) ? fmt::format("{:.1e}", limit.error) : "-", row.seconds,
-               options);
+    // Options that do not fit beside the numbers stand below them.
+    const std::string numbers =
+        fmt::format("  {:>4} {:>8} {:>8} {:>16.10g} {:>8} {:>9.3f}", mesh, row.elements, row.dofs, value,
+                    std::isfinite(limit.error) ? fmt::format("{:.1e}", limit.error) : "-", row.seconds);
+    const bool fits = numbers.size() + 2 + options.size() <= static_cast<std::size_t>(kHelpColumns);
+    fmt::print(screen_, "{}{}{}\n", numbers, fits ? "  " : "\n       ", options);
     std::fflush(screen_);
     file_.text() +=
         fmt::format("{},{},{},{:.12g},{},{:.4f},{}\n", mesh, row.elements, row.dofs, value,

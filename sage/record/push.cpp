@@ -88,8 +88,9 @@ std::string Pushes::text(const Model& model, long yielded) const {
     const Plateau plateau = plateau_of(forces);
     const auto largest = std::ranges::max_element(forces);
     fmt::format_to(std::back_inserter(text),
-                   "  push        stage {}: force along the motion {:.5g} +- {:.2g} {} over its second half "
-                   "(third quarter {:.5g}, last {:.5g}); largest {:.5g} in increment {}\n",
+                   "  push        stage {}: force along the motion {:.5g} +- {:.2g} {}\n"
+                   "              (second half; its third quarter {:.5g}, its last {:.5g})\n"
+                   "              largest {:.5g} in increment {}\n",
                    push.stage + 1, plateau.mean, plateau.scatter, model.units.force, plateau.third_quarter,
                    plateau.last_quarter, *largest, largest - forces.begin() + 1);
   }
