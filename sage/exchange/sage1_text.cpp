@@ -225,13 +225,13 @@ void Sage1Writer::control(std::size_t reports) {
                                 nodes,
                                 elements};
   const std::size_t waters = model_.water.size();
-  heading(model_.large_strain ? "* geom solv node fill matl grup elem fixi init stag rept nnod nele watr strn"
+  heading(model_.large_strain ? "* geom solv node fill matl grup elem fixi init stag rept nnod nele watr st"
                               : "* geom solv node fill matl grup elem fixi init stag rept nnod nele");
   integer(model_.geometry == Geometry::axisymmetric ? 2 : 1);
   integer(model_.solver);
   for (std::size_t count : counts) integer(static_cast<long>(count));
   if (waters > 0 || model_.large_strain) integer(static_cast<long>(waters));
-  if (model_.large_strain) integer(1);
+  if (model_.large_strain) text_ += wide_ ? "   1" : " 1";
   line();
 }
 

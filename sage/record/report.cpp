@@ -200,8 +200,11 @@ SpecimenStart start_of_specimen(const Model& model, const Report& report, const 
   if (state.law_size() != 4) return start;
   const auto history = static_cast<std::size_t>(state.history_size());
   const std::size_t of_law = history_of(groups[at].law).size();
-  start.history = value_of_all(state.committed.h, history, kAlike);
-  if (start.history.size() > of_law) start.history.resize(of_law);  // the element's own come last
+  std::vector<double> of_laws;  // without what the elements remember, which comes last
+  for (std::size_t first = 0; first < state.committed.h.size(); first += history)
+    of_laws.insert(of_laws.end(), state.committed.h.begin() + static_cast<std::ptrdiff_t>(first),
+                   state.committed.h.begin() + static_cast<std::ptrdiff_t>(first + of_law));
+  start.history = value_of_all(of_laws, of_law, kAlike);
   if (start.history.empty() && of_law > 0)
     start.note =
         "history differs between the points of the specimen; the correct test starts from the law's own";

@@ -156,7 +156,7 @@ std::string DeckWriter::text() const {
                     size_of(elements), size_of(fixities), size_of(initials), static_cast<int>(stages.size()),
                     size_of(reports)});
   if (!waters.empty() || large_strain) text += integers({0, 0, size_of(waters)});
-  if (large_strain) text += integers({1});
+  if (large_strain) text += " 1";
   text += "\n";
   for (const auto* cards : {&nodes, &fills, &materials, &groups, &elements, &fixities, &initials})
     append(text, *cards);
