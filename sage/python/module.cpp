@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sage/drive/subject.hpp"
+#include "sage/python/python_sweep.hpp"
 #include "sage/python/state_arrays.hpp"
 
 namespace sage::python {
@@ -355,6 +356,7 @@ PYBIND11_MODULE(_sagefe, m) {
   define_analysis(m);
   m.def("read", &PythonModel::read);
   m.def("build", &PythonModel::from_input);
+  m.def("sweep", &run_sweep);
   m.def("load_plugin", &load_plugin);
   m.def("add_law", &add_law);
   m.def("laws", &laws_known);

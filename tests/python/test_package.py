@@ -427,3 +427,27 @@ def test_library_solvers_are_found(pinned):
     result = sagefe.read(PINNED).with_(solver="umfpack").run(strict=True)
     assert result.solver == "umfpack"
     np.testing.assert_allclose(result.report[1].force, pinned.report[1].force, rtol=1e-9)
+
+
+def test_sweep_gives_the_columns_of_its_table(tmp_path):
+    """The chapter's pinned column of L/D = 2 (Table 7.3); the second call computes nothing, so that its journal stays."""
+    study = tmp_path / "study.toml"
+    study.write_text(f'deck = "{PINNED}"\ncollect = ["report1.ratio"]\n[grid]\nmaterial.1.nu = [0.25, 0.33333333, 0.495]\n')
+    table = sagefe.sweep(study, output=tmp_path / "out", jobs=2)
+    assert [f"{ratio:.4f}" for ratio in table["report1.ratio"]] == ["1.0181", "1.0344", "1.1189"]
+    assert list(table["status"]) == ["ok"] * 3 and list(table["case"]) == [1, 2, 3]
+    journal = (tmp_path / "out" / "study.cases.0").read_bytes().split()
+    again = sagefe.sweep(str(study), output=str(tmp_path / "out"))
+    assert np.array_equal(again["report1.ratio"], table["report1.ratio"])
+    assert (tmp_path / "out" / "study.cases.0").read_bytes().split() == journal
+    more = sagefe.sweep(study, output=tmp_path / "out", collect=["report1.force.max"])
+    assert (more["report1.force.max"] > 0).all()
+
+
+def test_sweep_reports_mistakes_of_the_study(tmp_path):
+    study = tmp_path / "study.toml"
+    study.write_text(f'deck = "{PINNED}"\ncollect = ["report1.ration"]\n[grid]\nmaterial.1.nu = [0.25, 0.3]\n')
+    with pytest.raises(sagefe.DeckError, match="did you mean report1.ratio"):
+        sagefe.sweep(study, output=tmp_path)
+    with pytest.raises(TypeError):
+        sagefe.sweep(study, output=tmp_path, collect="report1.ratio")

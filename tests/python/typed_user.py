@@ -29,4 +29,8 @@ def elastic(
     return stress + tangent @ dstrain, tangent
 
 
+def ratios(study: str) -> NDArray[np.float64]:
+    return sagefe.sweep(study, jobs=1, collect=["report1.ratio"])["report1.ratio"]
+
+
 sagefe.add_law("elastic", elastic, parameters={"E": None})

@@ -28,6 +28,7 @@ from ._models import (
 )
 from ._results import Fields, Report, Result, State
 from ._sagefe import version as __version__
+from ._sweeps import sweep
 
 __all__ = [
     "Analysis",
@@ -58,4 +59,5 @@ __all__ = [
     "laws",
     "load_plugin",
     "read",
+    "sweep",
 ]
