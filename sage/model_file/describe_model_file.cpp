@@ -101,9 +101,15 @@ Json schema_of(const Table& table, const Catalogue& catalogue) {
   const bool laws = table.key == "material";  // with the parameters of their laws
   Json schema{{"type", "object"}, {"description", table.about}, {"properties", std::move(properties)}};
   if (laws)
-    for (const auto& [code, entry] : catalogue.materials.entries())
+    for (const auto& [code, entry] : catalogue.materials.entries()) {
       for (const Parameter& parameter : entry.parameters)
         schema["properties"][parameter.name] = {{"type", number_type()}, {"description", parameter.meaning}};
+      if (entry.open_ended)
+        schema["properties"]["props"] = {
+            {"type", "array"},
+            {"items", {{"type", number_type()}}},
+            {"description", "properties of the routine (PROPS), behind the parameters"}};
+    }
   schema["additionalProperties"] = table.key == "points";  // names of the user's own
   if (!required.empty()) schema["required"] = std::move(required);
   return schema;

@@ -28,6 +28,7 @@ class Reader {
 
   void add_head(const toml::table& root);
   void add_nodes(const toml::table& root);
+  void add_properties(const toml::table& material, std::vector<NewField>& values);
   void add_materials(const toml::table& root);
   void add_elements(const toml::table& root);
   void add_cards(const toml::table& from, std::string_view key, std::string_view table, int owner = -1);
@@ -100,6 +101,17 @@ void Reader::add_nodes(const toml::table& root) {
   add_cards(root, "fill", "fill");
 }
 
+// What a law has behind its parameters: props = [0.2, 0.05].
+void Reader::add_properties(const toml::table& material, std::vector<NewField>& values) {
+  const toml::node* node = material.get("props");
+  if (node == nullptr) return;
+  const toml::array* list = node->as_array();
+  if (list == nullptr)
+    return values_.error("S152", values_.where(*node), "props is a list of numbers: props = [0.2, 0.05]");
+  for (const toml::node& one : *list)
+    values.push_back({"values", values_.number(one, "props", ""), values_.where(one), {}});
+}
+
 void Reader::add_materials(const toml::table& root) {
   for (const toml::table* one : values_.entries(root, "material")) {
     std::vector<NewField> card = values_.fields(*one, table("material"));
@@ -122,6 +134,7 @@ void Reader::add_materials(const toml::table& root) {
     }
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!Deck::is_blank(values[i].number)) given[entry->parameters[i].name] = values[i].number;
+    if (entry->open_ended) add_properties(*one, values);
     while (!values.empty() && Deck::is_blank(values.back().number)) values.pop_back();
     if (!values.empty()) out_.add("parameters", values.front().where, values, owner);
   }

@@ -63,8 +63,10 @@ void Values::know_keys(const toml::table& given, const Table& table, const Mater
         other.key.find('.', prefix.size()) == std::string::npos)
       known.push_back(other.key.substr(prefix.size()));
   if (table.key.empty()) known.push_back("plugins");
-  if (law != nullptr)
+  if (law != nullptr) {
     for (const Parameter& parameter : law->parameters) known.push_back(parameter.name);
+    if (law->open_ended) known.push_back("props");
+  }
   for (const auto& [key, node] : given) {
     const std::string name(key.str());
     if (std::ranges::find(known, name) != known.end()) continue;

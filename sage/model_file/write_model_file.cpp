@@ -172,12 +172,16 @@ void Writer::add_materials() {
     Pairs all = pairs(card, table("material"));
     const MaterialEntry* entry = catalogue_.materials.find(card.integer("law"));
     std::size_t i = 0;
+    std::string properties;
     for (const CardView& values : deck_.all("parameters", card))
       for (const FieldValue& one : values.list("values")) {
         if (!one.blank && entry != nullptr && i < entry->parameters.size())
           all.emplace_back(entry->parameters[i].name, real_text(one.number));
+        else if (entry != nullptr && entry->open_ended && i >= entry->parameters.size())
+          properties += (properties.empty() ? "" : ", ") + real_text(one.blank ? 0.0 : one.number);
         ++i;
       }
+    if (!properties.empty()) all.emplace_back("props", "[" + properties + "]");
     add_table("[[material]]", all);
   }
   for (const CardView& card : deck_.all("group")) add_table("[[group]]", pairs(card, table("group")));

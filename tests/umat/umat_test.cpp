@@ -130,6 +130,30 @@ TEST(Umat, ElasticIsTheNativeLawInTheChaptersDecks) {
   }
 }
 
+// A model file holds the properties behind the parameters of the law; a list with a word in it is rejected where it stands.
+TEST(Umat, PropertiesInModelFiles) {
+  const fs::path folder = empty_folder("umat_model_file");
+  const std::string umat = " --umat " + library("elastic");
+  write(folder / "column.dat", column_deck(umat_material({"4", "0", "1", "0", "20000.", ".25"}, "soil")));
+  const Finished converted = sagefe(folder, "convert column.dat column.sage.toml" + umat);
+  ASSERT_EQ(converted.exit_code, 0) << converted.err;
+  const std::string model = read(folder / "column.sage.toml"), props = "props = [20000.0, 0.25]";
+  expect_words(model, {"law = \"umat\"", props});
+  ASSERT_EQ(sagefe(folder, "run -q -o deck column.dat" + umat).exit_code, 0);
+  const Finished run = sagefe(folder, "run -q -o model column.sage.toml" + umat);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::vector<double> expected = numbers(folder / "deck/column.report1.csv"),
+                            found = numbers(folder / "model/column.report1.csv");
+  EXPECT_EQ(found, expected);
+  EXPECT_GT(expected.size(), 10u);
+  std::string broken = model;
+  broken.replace(broken.find(props), props.size(), "props = [20000, \"a\"]");
+  write(folder / "broken.sage.toml", broken);
+  const Finished rejected = sagefe(folder, "run -q broken.sage.toml" + umat);
+  EXPECT_EQ(rejected.exit_code, 2);
+  expect_words(rejected.err, {"S152"});
+}
+
 TEST(Umat, DruckerPragerIsTheNativeLawInTheChaptersDecks) {
   const fs::path folder = empty_folder("umat_dp");
   const std::string native = kCases + "dp_285/deck.dat", text = read(native);
