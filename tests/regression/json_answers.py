@@ -180,6 +180,9 @@ def check_others(folder):
     answer(folder, "safety", DECK, "-o", "out", code=2)
     bounds = answer(folder, "bounds", str(slope), "--elements", "300", "-o", "out")["result"]
     expect(bounds["lower"]["value"] <= bounds["upper"]["value"] <= 1.1 * bounds["lower"]["value"], "bounds", bounds)
+    pushed = SOURCE / "legacy_inputs/smith_griffiths/p63.dat"  # a footing that is moved
+    refused = answer(folder, "bounds", str(pushed), "--layout", "sg_p63", "--of", "strength", "-o", "out", code=2)["messages"]
+    expect([one["code"] for one in refused if one["severity"] == "error"] == ["S616"], "factor of a movement", refused)
     if not COARSER:
         check_safety_beside_bounds(folder)
     (folder / "study.toml").write_text(f'deck = "{SOURCE / "legacy_inputs/chapter7/pinned_ld2_nu0333/deck.dat"}"\ncollect = ["report1.ratio"]\n'
