@@ -19,6 +19,7 @@
 #include "sage/app/interrupt.hpp"
 #include "sage/app/outside_workers.hpp"
 #include "sage/app/progress.hpp"
+#include "sage/app/result_files.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/stored_heads.hpp"
 #include "sage/record/csv.hpp"

@@ -219,6 +219,7 @@ void warn_of_the_rest(const Model& model, const HeldDofs& beside, Diagnostics& d
     if (wanted) rest += (rest.empty() ? "" : ", ") + std::string(what);
   };
   word(model.geometry == Geometry::axisymmetric, "axisymmetry (--geometry 2)");
+  word(model.large_strain, "large strain");
   word(!model.title.empty(), "title");
   const UnitSystem& units = model.units;
   word(units.length != "-" || units.force != "-" || units.stress != "-" || units.atmospheric_pressure != 0.0 ||

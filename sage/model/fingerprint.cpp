@@ -59,6 +59,7 @@ std::uint64_t fingerprint(const Model& model) {
   const UnitSystem& u = model.units;
   add(archive, model.title, u.length, u.force, u.stress, u.atmospheric_pressure, u.water_unit_weight);
   add(archive, model.geometry, model.solver);
+  if (model.large_strain) add(archive, model.large_strain);
   for (Eigen::Index i = 0; i < model.mesh.x.cols(); ++i) add(archive, model.mesh.x(0, i), model.mesh.x(1, i));
   add(archive, model.mesh.number);
   for (const Material& m : model.materials) add(archive, m.number, m.name, m.code, m.parameters, m.unit_weight);

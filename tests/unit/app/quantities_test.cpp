@@ -141,12 +141,17 @@ Model mohr_coulomb() {
 
 // Soil whose pore water flows, drained at its top; one stage in which nothing happens.
 Model of_pores() {
-  const scenes::PoreMesh mesh{.x = {1.0, 2.0}, .y = {0.0, 1.0}};
+  const PoreMesh mesh{.x = {1.0, 2.0}, .y = {0.0, 1.0}};
   ModelInput input = scenes::pore_input(mesh, 1000.0, 0.25, 1e-3);
   input.supports = {scenes::held(mesh.row(0), true, true), scenes::drained(mesh.corner_row(2))};
   input.stages.emplace_back();
   Model model = build_model(input, catalogue());
   model.file.clear();
+  return model;
+}
+Model of_flowing_pores() {
+  Model model = of_pores();
+  model.stages.front().pores = PoreWater::flows;
   return model;
 }
 
@@ -157,6 +162,7 @@ const std::vector<Row>& rows() {
   static const std::vector<Row> all{
       {"title", {"", "title", ""}, [](Model& m) { m.title = "dam"; }},
       {"axisymmetry", {"", "axisymmetry", ""}, [](Model& m) { m.geometry = Geometry::axisymmetric; }},
+      {"large strain", {"", "large strain", "large strain"}, [](Model& m) { m.large_strain = true; }},
       {"unit names", {"", "units", ""}, [](Model& m) { m.units.length = "m"; }},
       {"p_a", {"", "units", ""}, [](Model& m) { m.units.atmospheric_pressure = 101.0; }},
       {"gamma_w", {"", "units", ""}, [](Model& m) { m.units.water_unit_weight = 9.81; }},
@@ -248,6 +254,27 @@ const std::vector<Row>& rows() {
        of_pores},
       {"theta", {"", kStages, "theta"}, [](Model& m) { first(m).theta = 0.5; }},
       {"grading of increments", {"", kStages, "grading"}, [](Model& m) { first(m).grading = 1.5; }},
+      {"steps by their error",
+       {"", kStages, "steps in time"},
+       [](Model& m) {
+         first(m).time_error = 1e-3;
+         first(m).end_degree = 0.9;
+       },
+       of_flowing_pores},
+      {"output times",
+       {"", kStages, "steps in time"},
+       [](Model& m) {
+         first(m).output_times = {0.25};
+         Diagnostics none;
+         m = model_of(sage1_text(m, none));  // with the increments that follow
+       },
+       of_flowing_pores},
+      {"history of a support",
+       {"", "the excess_pressure of nodes is left out", "the excess_pressure of nodes is left out"},
+       [](Model& m) {
+         first(m).field_fixities.push_back({m.pore_field(), 0, FixityCode::fixed, 2.0, 0, {{0.5, 1.0}}});
+       },
+       of_flowing_pores},
       {"method", {"", kStages, kControl}, [](Model& m) { first(m).method = Method::dogleg; }},
       {"iterations", {"", kStages, kControl}, [](Model& m) { first(m).max_iterations = 40; }},
       {"output interval", {"", kStages, kControl}, [](Model& m) { first(m).output_every = 3; }},
@@ -404,9 +431,9 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 // A member that a structure gains breaks the build here: give it a row in the table above, then a name below.
 // What has none needs none: it follows from the rest, or is about the deck and not about the problem.
 [[maybe_unused]] void known(const Model& one) {
-  [[maybe_unused]] const auto& [file, title, geometry, units, solver, fields, mesh, materials, groups, unknowns,
-                                fixities, field_fixities, initials, stages, water, reports, diagnostics,
-                                left_out, plugins] = one;
+  [[maybe_unused]] const auto& [file, title, geometry, units, solver, large_strain, fields, mesh, materials,
+                                groups, unknowns, fixities, field_fixities, initials, stages, water, reports,
+                                diagnostics, left_out, plugins] = one;
 }
 [[maybe_unused]] void known(const UnitSystem& one) {
   [[maybe_unused]] const auto& [length, force, stress, p_a, gamma_w] = one;
@@ -430,22 +457,23 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [node, code, value, line] = one;
 }
 [[maybe_unused]] void known(const FieldFixity& one) {
-  [[maybe_unused]] const auto& [field, node, code, value, line] = one;
+  [[maybe_unused]] const auto& [field, node, code, value, line, history] = one;
 }
 [[maybe_unused]] void known(const InitialStress& one) {
   [[maybe_unused]] const auto& [group, kind, value, where] = one;
 }
 [[maybe_unused]] void known(const Stage& one) {
-  [[maybe_unused]] const auto& [number, title, increments, duration, pores, theta, grading, method,
-                                max_iterations, output_every, output_at, tolerance, gravity, fixities, loads,
-                                field_fixities, field_loads, exits, pressures, births, deaths, initials,
-                                strength_factor, resets_displacements, where] = one;
+  [[maybe_unused]] const auto& [number, title, increments, duration, pores, theta, grading, time_error,
+                                end_degree, end_pressure, output_times, ends, divisions, method, max_iterations,
+                                output_every, output_at, tolerance, gravity, fixities, loads, field_fixities,
+                                field_loads, exits, pressures, births, deaths, initials, strength_factor,
+                                resets_displacements, where] = one;
 }
 [[maybe_unused]] void known(const NodalLoad& one) {
   [[maybe_unused]] const auto& [node, force, line] = one;
 }
 [[maybe_unused]] void known(const FieldLoad& one) {
-  [[maybe_unused]] const auto& [field, node, value, line] = one;
+  [[maybe_unused]] const auto& [field, node, value, line, history] = one;
 }
 [[maybe_unused]] void known(const EdgeLoad& one) {
   [[maybe_unused]] const auto& [group, element, edge, normal, shear, line] = one;
