@@ -195,7 +195,10 @@ void make_table(Builder& b, int g, const std::vector<Phase>& phases) {
                    group_name(group) +
                        ": the routine of its material states its first values, and so its law can't "
                        "differ by point or stage");
-  if (group.flow() || !(group.solid() || group.interface() || group.entry->law_size == 1))
+  const bool placed = std::ranges::any_of(phases, [&](const Phase& phase) {
+    return !placed_in(b.options, model.materials[static_cast<std::size_t>(phase.material)]).empty();
+  });
+  if (placed && (group.flow() || !(group.solid() || group.interface() || group.entry->law_size == 1)))
     return b.error(
         "S617", b.at_line(0),
         group_name(group) +

@@ -50,6 +50,7 @@ MANUAL = {
 NOT_HERE = {
     "sagefe stress ": "all rows: tests/stress; the page: scripts/pictures",
     "sagefe verify ": "all cases: tests/verification; the page: scripts/pictures",
+    "sagefe convert layer.msh layer.dat --young": "a mesh with names of its own: tests/unit/exchange/mesh_files_test.cpp",
     "sagefe safety slope.dat --converge": "minutes; tests/regression/safety_test.cpp converges a smaller deck",
     "sagefe drive --law clough_duncan ...": "an outline",
     "sagefe drive --law modified_cam_clay": "curves of the reader; tests/unit/drive fits several tests together",

@@ -185,6 +185,9 @@ def check_others(folder):
     expect([one["code"] for one in refused if one["severity"] == "error"] == ["S616"], "factor of a movement", refused)
     if not COARSER:
         check_safety_beside_bounds(folder)
+    answer(folder, "run", DECK, "-o", "out", "--result")
+    page = answer(folder, "report", "out/pinned_ld2_nu0333.h5")["result"]
+    expect([file for file in page["files"] if file.endswith(".html") and (folder / file).exists()], "page of a run", page)
     (folder / "study.toml").write_text(f'deck = "{SOURCE / "legacy_inputs/chapter7/pinned_ld2_nu0333/deck.dat"}"\ncollect = ["report1.ratio"]\n'
                                        '[grid]\nmaterial.1.nu = [0.2, 0.3]\n[failure]\nwhen = "report1.ratio > 1.02"\n')
     swept = answer(folder, "sweep", "study.toml", "-o", "out")["result"]

@@ -162,7 +162,13 @@ const std::vector<Row>& rows() {
   static const std::vector<Row> all{
       {"title", {"", "title", ""}, [](Model& m) { m.title = "dam"; }},
       {"axisymmetry", {"", "axisymmetry", ""}, [](Model& m) { m.geometry = Geometry::axisymmetric; }},
-      {"large strain", {"", "large strain", "large strain"}, [](Model& m) { m.large_strain = true; }},
+      {"large strain",
+       {"", "large strain", "large strain"},
+       [](Model& m) {
+         m.large_strain = true;
+         Diagnostics none;
+         m = model_of(sage1_text(m, none));  // with the elements that follow
+       }},
       {"unit names", {"", "units", ""}, [](Model& m) { m.units.length = "m"; }},
       {"p_a", {"", "units", ""}, [](Model& m) { m.units.atmospheric_pressure = 101.0; }},
       {"gamma_w", {"", "units", ""}, [](Model& m) { m.units.water_unit_weight = 9.81; }},

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include <fstream>
 #include <sstream>
 
@@ -243,20 +245,18 @@ TEST(WideLayout, IsSage1WithWideFields) {
   EXPECT_EQ(wide_format("(A80)"), "(A80)");
   const Layout narrow = load_layout("sage1"), wide = load_layout("sage1_wide");
   ASSERT_EQ(wide.cards.size(), narrow.cards.size());
+  const std::map<std::string, std::pair<std::size_t, const char*>> behind{
+      {"element", {7, ",7I10"}},     {"stage", {10, ",2F20.0,I10,2F20.0,I10,3F20.0,A80"}},
+      {"initial", {2, ",I10,A40"}},  {"stage_initial", {2, ",I10,A40"}},
+      {"stage_fixity", {1, ",A80"}}, {"load", {1, ",A80"}},
+      {"group", {1, ",I10"}}};
   for (std::size_t i = 0; i < wide.cards.size(); ++i) {
     const std::string& key = narrow.cards[i].key;
-    const std::size_t more = key == "element"                             ? 7
-                             : key == "stage"                             ? 6
-                             : key == "initial" || key == "stage_initial" ? 2
-                             : key == "group"                             ? 1
-                                                                          : 0;
+    const auto found = behind.find(key);
+    const auto [more, fields] = found == behind.end() ? std::pair{std::size_t{0}, ""} : found->second;
     EXPECT_EQ(wide.cards[i].spec.fields.size(), narrow.cards[i].spec.fields.size() + more);
     std::string format = wide_format(narrow.cards[i].spec.format);
-    if (more > 0)
-      format.insert(format.size() - 1, more == 7   ? ",7I10"
-                                       : more == 6 ? ",2F20.0,I10,2F20.0,I10"
-                                       : more == 2 ? ",I10,A40"
-                                                   : ",I10");
+    if (more > 0) format.insert(format.size() - 1, fields);
     EXPECT_EQ(wide.cards[i].spec.format, format);
   }
   EXPECT_NE(layout_manual(wide).find("| 31-50 | `x` | real | x or radius | length |"), std::string::npos);

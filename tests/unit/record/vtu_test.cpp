@@ -198,7 +198,8 @@ TEST_F(VtuReadBack, KnowsEveryShape) {
     set_element(group, base.catalogue, code, 0, model.geometry);
     if (entry->has_pores()) {
       Material water;
-      water.entry = base.catalogue.materials.share(base.catalogue.materials.code_of("pore_flow"));
+      const char* const law = entry->interface() ? "pore_joint" : "pore_flow";
+      water.entry = base.catalogue.materials.share(base.catalogue.materials.code_of(law));
       water.law = water.entry->make(std::array{1.0}, UnitSystem{"m", "kN", "kPa", 0.0, 1.0});
       model.materials.push_back(std::move(water));
       group.second_material = 1;
