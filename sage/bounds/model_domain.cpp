@@ -80,6 +80,8 @@ class GroundMaker {
   void check_groups() const {
     if (m_.geometry == Geometry::axisymmetric)
       reject("S570", {}, "bounds are for plane strain; this model is axisymmetric");
+    if (m_.large_strain)
+      reject("S553", {}, "large strain: bounds are of the mesh as it stands, and for small strain alone");
     for (std::size_t g = 0; g < m_.groups.size(); ++g) {
       const Group& group = m_.groups[g];
       if (!active(g) || group.flow() || group.overlay) continue;

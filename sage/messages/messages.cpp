@@ -1047,8 +1047,9 @@ constexpr MessageEntry kMessages[] = {
      "strain, and laws that change by point or stage, have none.",
      "Take an isotropic elastic or elastic-plastic law, or small strain."},
     {"S553", "a part of the model for small strain alone",
-     "Pore water, stages that set displacements to zero and searches for a factor of safety assume that the "
-     "model keeps the shape of its mesh.",
+     "Pore water, stages that set displacements to zero, bounds and searches for a factor of safety assume "
+     "that "
+     "the model keeps the shape of its mesh.",
      "Leave the part out, or take small strain."},
     {"S554", "which stress and strain large strain prints",
      "Stresses are Cauchy stresses: force over present area. Strains are logarithmic (Hencky) strains of the "

@@ -201,8 +201,7 @@ TEST(Ground, AssociatedModels) {
   EXPECT_EQ(model.materials[0].parameters[4], 20.0);
 }
 
-std::string code_of(const std::string& deck) {
-  const Model model = model_of(deck);
+std::string code_of(const Model& model) {
   try {
     (void)make_ground(model, 0, static_cast<int>(model.stages.size()) - 1);
   } catch (const InputError& error) {
@@ -212,9 +211,12 @@ std::string code_of(const std::string& deck) {
 }
 
 TEST(Ground, RejectsByName) {
-  EXPECT_NE(code_of("chapter7/dp_285/deck.dat").find("axisymmetric"), std::string::npos);
-  EXPECT_NE(code_of("structures/sheet_pile/deck.dat").find("is a structure"), std::string::npos);
-  EXPECT_NE(code_of("hyperbolic/strip_footing/deck.dat").find("has no bounds"), std::string::npos);
+  EXPECT_NE(code_of(model_of("chapter7/dp_285/deck.dat")).find("axisymmetric"), std::string::npos);
+  EXPECT_NE(code_of(model_of("structures/sheet_pile/deck.dat")).find("is a structure"), std::string::npos);
+  EXPECT_NE(code_of(model_of("hyperbolic/strip_footing/deck.dat")).find("has no bounds"), std::string::npos);
+  Model large = model_of("slopes/taylor_60/deck.dat");
+  large.large_strain = true;
+  EXPECT_NE(code_of(large).find("small strain"), std::string::npos);
 }
 
 }  // namespace
