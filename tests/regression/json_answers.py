@@ -191,7 +191,7 @@ def check_others(folder):
     (folder / "study.toml").write_text(f'deck = "{SOURCE / "legacy_inputs/chapter7/pinned_ld2_nu0333/deck.dat"}"\ncollect = ["report1.ratio"]\n'
                                        '[grid]\nmaterial.1.nu = [0.2, 0.3]\n[failure]\nwhen = "report1.ratio > 1.02"\n')
     swept = answer(folder, "sweep", "study.toml", "-o", "out")["result"]
-    expect((swept["cases"], swept["kept"], swept["failures"]) == (2, 2, 0), "cases of a sweep", swept)
+    expect((swept["cases"], swept["kept"], swept["failures"]) == (2, 0 if COARSER else 2, 0), "cases of a sweep", swept)
     expect(all((folder / file).exists() for file in swept["files"]), "files of a sweep")
     driven = answer(folder, "drive", "--law", "linear_elastic", "--set", "E=1000", "--set", "nu=.25", "--test", "oedometer",
                     "--to", ".01", "--steps", "4", "--csv", "c.csv")["result"]
