@@ -46,10 +46,11 @@ if(SAGE_SANITIZE)
   target_compile_options(sage_options INTERFACE -fsanitize=${SAGE_SANITIZE} -fno-omit-frame-pointer
                                                 -fno-sanitize-recover=all $<$<BOOL:$<TARGET_PROPERTY:SAGE_HOT>>:-O2>)
   target_link_options(sage_options INTERFACE -fsanitize=${SAGE_SANITIZE})
-  # Every test is a program with all its libraries and their checks: GNU's linker takes three times as long.
+  # Every test is a program with all its libraries and their checks: GNU's linker takes three times as long.  Modules stay as the
+  # release has them: tests know where their sections lie.
   check_linker_flag(CXX -fuse-ld=lld SAGE_HAVE_LLD)
   if(SAGE_HAVE_LLD)
-    target_link_options(sage_options INTERFACE -fuse-ld=lld)
+    target_link_options(sage_options INTERFACE "$<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:-fuse-ld=lld>")
   endif()
   # Two fifths of the time to build are checks at every access to a member, in Eigen above all.  A null pointer stops a program
   # of the address sanitizer by itself, and so does an access beyond an object; addresses that are not aligned are found by
