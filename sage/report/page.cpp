@@ -1,5 +1,7 @@
 #include "sage/report/page.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "sage/record/values.hpp"

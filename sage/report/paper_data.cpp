@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 // What the page shows besides the states: summary, tables, messages, pictures, the deck.
 #include <algorithm>
 #include <fstream>

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 // The page's states: which fields, of which states, how exactly, so that they find room.
 #include <algorithm>
 #include <cmath>
