@@ -1,6 +1,6 @@
+// What the page shows besides the states: summary, tables, messages, pictures, the deck.
 #include <fmt/format.h>
 
-// What the page shows besides the states: summary, tables, messages, pictures, the deck.
 #include <algorithm>
 #include <fstream>
 #include <iterator>

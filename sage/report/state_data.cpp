@@ -1,6 +1,6 @@
+// The page's states: which fields, of which states, how exactly, so that they find room.
 #include <fmt/format.h>
 
-// The page's states: which fields, of which states, how exactly, so that they find room.
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
