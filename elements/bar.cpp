@@ -61,7 +61,7 @@ const std::vector<std::vector<int>>& Bar<Line, Kinematics>::edges() const {
 template <class Line, class Kinematics>
 void Bar<Line, Kinematics>::edge_load(const NodeCoordinates& x, int edge, const Vector2& normal,
                                       const Vector2& shear, std::span<double> f) const {
-  add_edge_load<Line, Kinematics>(Nodes(x), normal, shear, edges().at(static_cast<std::size_t>(edge)), f);
+  add_edge_load<Line, Kinematics>(Nodes(x), normal, shear, edges().at(edge), f);
 }
 
 template class Bar<Line2, PlaneStrain>;

@@ -23,7 +23,7 @@ class Bar final : public PointElement<1, 2 * Line::nodes, Line::nodes - 1> {
   explicit Bar(std::string_view name);
   void geometry(const NodeCoordinates& x, std::span<double> out) const override;
   Vector2 position(const NodeCoordinates& x, int point) const override {
-    return x * Line::N(GaussLine<kPoints>::table[static_cast<std::size_t>(point)].xi);
+    return x * Line::N(GaussLine<kPoints>::table[point].xi);
   }
   // b: force per length.
   void body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const override;

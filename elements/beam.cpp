@@ -474,7 +474,7 @@ void add_force(const LineFrame& frame, double xi, const Vector2& force, std::spa
     const auto first = static_cast<std::size_t>(2 * i);
     f[first] += at.x();
     f[first + 1] += at.y();
-    f[static_cast<std::size_t>(4 + i)] += w(2 + i) * force.dot(frame.n);
+    f[4 + i] += w(2 + i) * force.dot(frame.n);
   }
 }
 
@@ -551,7 +551,7 @@ Outcome Beam2<Kinematics, released>::evaluate(const ElementIn& in, ElementOut& o
 
 template <class Kinematics, Release released>
 Vector2 Beam2<Kinematics, released>::position(const NodeCoordinates& x, int point) const {
-  return x.leftCols<2>() * Line2::N(kEndsAndMiddle[static_cast<std::size_t>(point)].xi);
+  return x.leftCols<2>() * Line2::N(kEndsAndMiddle[point].xi);
 }
 
 template <class Kinematics, Release released>
@@ -658,8 +658,7 @@ const std::vector<std::vector<int>>& Beam3<Kinematics, released>::edges() const 
 template <class Kinematics, Release released>
 void Beam3<Kinematics, released>::edge_load(const NodeCoordinates& x, int edge, const Vector2& normal,
                                             const Vector2& shear, std::span<double> f) const {
-  add_edge_load<Line3, Kinematics>(Eigen::Matrix<double, 2, 3>(x), normal, shear,
-                                   edges().at(static_cast<std::size_t>(edge)), f);
+  add_edge_load<Line3, Kinematics>(Eigen::Matrix<double, 2, 3>(x), normal, shear, edges().at(edge), f);
   add_slip<released>(LineFrame(x.leftCols<3>() * Line3::dN(-1.0)), f);
 }
 

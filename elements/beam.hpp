@@ -33,7 +33,7 @@ class Beam3 final : public PointElement<5, 9 + slip_dofs(released), 2> {
   explicit Beam3(std::string_view name);
   void geometry(const NodeCoordinates& x, std::span<double> out) const override;
   Vector2 position(const NodeCoordinates& x, int point) const override {
-    return x * Line3::N(GaussLine<2>::table[static_cast<std::size_t>(point)].xi);
+    return x * Line3::N(GaussLine<2>::table[point].xi);
   }
   void body_load(const NodeCoordinates& x, const Vector2& b, std::span<double> f) const override;
   const std::vector<std::vector<int>>& edges() const override;

@@ -41,7 +41,7 @@ class HalfLoads {
 
   // The nodal forces and moments of one half; a force that slips has them at its end.
   void of(int half, std::span<double> f) const {
-    const auto [L, t] = half_[static_cast<std::size_t>(half)];
+    const auto [L, t] = half_[half];
     const Vector2 n(-t.y(), t.x());
     const Vector2 p0 = along_.col(half), p1 = along_.col(half + 1), q0 = across_.col(half),
                   q1 = across_.col(half + 1);
@@ -136,8 +136,7 @@ void BeamHalves<Kinematics, released>::geometry(const NodeCoordinates& x, std::s
     *to = *from;
     for (int c = 0; c < kSectionStrains; ++c)
       for (int i = 0; i < dofs; ++i)
-        to[1 + static_cast<std::size_t>(c * kDofs) + places[static_cast<std::size_t>(i)]] =
-            from[1 + c * dofs + i];
+        to[1 + static_cast<std::size_t>(c * kDofs) + places[i]] = from[1 + c * dofs + i];
   };
   for (std::size_t p = 0; p < kHalfPoints; ++p) {
     place(p, own.data() + p * kPointStride<kSectionStrains, kHalfDofs>, kFirst, kHalfDofs);

@@ -68,7 +68,7 @@ class Coupled final : public Element {
       Eigen::Map<OperatorT<4, kDofs>> Bt(to + 1);
       Bt.template topRows<kU>() = Eigen::Map<const OperatorT<4, kU>>(from + 1);
       Bt.template bottomRows<kP>().setZero();
-      Eigen::Map<PressureRows>(out.data() + rows_of(p)) = rows_at(x, Rule::table[static_cast<std::size_t>(p)]);
+      Eigen::Map<PressureRows>(out.data() + rows_of(p)) = rows_at(x, Rule::table[p]);
     }
   }
 

@@ -26,7 +26,7 @@ void add_edge_load(const Eigen::Matrix<double, 2, Line::nodes>& x, const Vector2
     const Vector2 traction = ends.dot(normal) * into + ends.dot(shear) * ds;
     const double w = point.w * Kinematics::measure(x.row(0).dot(N));
     for (int i = 0; i < Line::nodes; ++i) {
-      const std::size_t dof = 2 * static_cast<std::size_t>(edge[static_cast<std::size_t>(i)]);
+      const std::size_t dof = 2 * static_cast<std::size_t>(edge[i]);
       f[dof] += w * N(i) * traction.x();
       f[dof + 1] += w * N(i) * traction.y();
     }
@@ -42,8 +42,7 @@ void add_edge_inflow(const Eigen::Matrix<double, 2, Line::nodes>& x, const Vecto
     const double length = (x * Line::dN(point.xi)).norm();
     const Vector2 ends = Line2::N(point.xi);
     const double w = point.w * length * Kinematics::measure(x.row(0).dot(N)) * ends.dot(inflow);
-    for (int i = 0; i < Line::nodes; ++i)
-      f[static_cast<std::size_t>(edge[static_cast<std::size_t>(i)])] += w * N(i);
+    for (int i = 0; i < Line::nodes; ++i) f[edge[i]] += w * N(i);
   }
 }
 

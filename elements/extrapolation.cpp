@@ -14,8 +14,8 @@ Eigen::MatrixXd tensor_terms(std::span<const ParentPoint> at, int terms) {
   for (Eigen::Index i = 0; i < V.rows(); ++i)
     for (int a = 0; a < terms; ++a)
       for (int b = 0; b < terms; ++b)
-        V(i, a * terms + b) = std::legendre(static_cast<unsigned>(a), at[static_cast<std::size_t>(i)][0]) *
-                              std::legendre(static_cast<unsigned>(b), at[static_cast<std::size_t>(i)][1]);
+        V(i, a * terms + b) = std::legendre(static_cast<unsigned>(a), at[i][0]) *
+                              std::legendre(static_cast<unsigned>(b), at[i][1]);
   return V;
 }
 
@@ -27,7 +27,7 @@ Eigen::MatrixXd terms(std::span<const ParentPoint> at, Basis basis, std::size_t 
   static constexpr int kTerms[] = {1, 2, 3, 3, 4, 6};
   Eigen::MatrixXd V(static_cast<Eigen::Index>(at.size()), kTerms[static_cast<int>(basis)]);
   for (Eigen::Index i = 0; i < V.rows(); ++i) {
-    const auto [x, y] = at[static_cast<std::size_t>(i)];
+    const auto [x, y] = at[i];
     switch (basis) {
       case Basis::constant:
         V.row(i) << 1.0;

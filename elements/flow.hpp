@@ -47,9 +47,9 @@ class Flow final : public PointElement<3, Shape::nodes, Rule::points> {
   void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& /*shear*/,
                  std::span<double> f) const override {
     using Edge = typename Shape::Edge;
-    const std::vector<int>& nodes = edges().at(static_cast<std::size_t>(edge));
+    const std::vector<int>& nodes = edges().at(edge);
     Eigen::Matrix<double, 2, Edge::nodes> ends;
-    for (int i = 0; i < Edge::nodes; ++i) ends.col(i) = x.col(nodes[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < Edge::nodes; ++i) ends.col(i) = x.col(nodes[i]);
     add_edge_inflow<Edge, Kinematics>(ends, normal, nodes, f);
   }
   std::span<const double> point_to_node(const NodeCoordinates& x) const override {

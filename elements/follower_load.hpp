@@ -27,9 +27,9 @@ void add_follower(const Eigen::Matrix<double, 2, Line::nodes>& mesh,
     for (int j = 0; j < Line::nodes; ++j) {
       Matrix2 rate = around * dN(j) * of_tangent;
       rate.col(0) += growth * N(j) * traction;
-      const std::size_t column = 2 * static_cast<std::size_t>(edge[static_cast<std::size_t>(j)]);
+      const std::size_t column = 2 * static_cast<std::size_t>(edge[j]);
       for (int i = 0; i < Line::nodes; ++i) {
-        const std::size_t row = 2 * static_cast<std::size_t>(edge[static_cast<std::size_t>(i)]);
+        const std::size_t row = 2 * static_cast<std::size_t>(edge[i]);
         Eigen::Map<Matrix2, 0, Eigen::OuterStride<>>(K + column * dofs + row,
                                                      Eigen::OuterStride<>(static_cast<Eigen::Index>(dofs))) -=
             point.w * N(i) * rate;

@@ -62,7 +62,7 @@ void strains_of_four(const double* B, const double* du, std::array<Four, 4>& str
       const Four term = Operator::term(B, i, c), u = load_four(du + i * kAbreast);
       sum[i % 4] = i < 4 ? term * u : multiply_add(term, u, sum[i % 4]);
     }
-    strain[static_cast<std::size_t>(c)] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
+    strain[c] = (sum[0] + sum[2]) + (sum[1] + sum[3]);
   }
 }
 
@@ -96,8 +96,7 @@ void forces_of_four(const double* geometry, const std::array<std::array<Four, 4>
 #pragma GCC unroll 4
         for (int c = 0; c < 4; ++c)
           if (Operator::couples(r, c))
-            of_point =
-                multiply_add(Operator::term(B, i + r, c), w_sigma[p][static_cast<std::size_t>(c)], of_point);
+            of_point = multiply_add(Operator::term(B, i + r, c), w_sigma[p][c], of_point);
         sum[r] += of_point;
       }
     }

@@ -107,7 +107,7 @@ void Interface<Line, Kinematics>::geometry(const NodeCoordinates& x, std::span<d
 template <class Line, class Kinematics>
 Vector2 Interface<Line, Kinematics>::position(const NodeCoordinates& x, int point) const {
   const MidLine line = mid_line(x);
-  return line * points(line)[static_cast<std::size_t>(point)].N;
+  return line * points(line)[point].N;
 }
 
 template <class Line, class Kinematics>
@@ -119,9 +119,9 @@ const std::vector<std::vector<int>>& Interface<Line, Kinematics>::edges() const 
 template <class Line, class Kinematics>
 void Interface<Line, Kinematics>::edge_load(const NodeCoordinates& x, int edge, const Vector2& normal,
                                             const Vector2& shear, std::span<double> f) const {
-  const std::vector<int>& nodes = edges().at(static_cast<std::size_t>(edge));
+  const std::vector<int>& nodes = edges().at(edge);
   MidLine ends;
-  for (int i = 0; i < kPairs; ++i) ends.col(i) = x.col(nodes[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < kPairs; ++i) ends.col(i) = x.col(nodes[i]);
   add_edge_load<Line, Kinematics>(ends, normal, shear, nodes, f);
 }
 

@@ -58,9 +58,7 @@ class Interface final : public PointElement<2, 4 * Line::nodes, Line::nodes> {
   std::string caution(const NodeCoordinates& x) const override;
 
   // Coordinate of a point along the element, -1 to 1.
-  double parent_of(const NodeCoordinates& x, int point) const {
-    return points(mid_line(x))[static_cast<std::size_t>(point)].xi;
-  }
+  double parent_of(const NodeCoordinates& x, int point) const { return points(mid_line(x))[point].xi; }
 
  private:
   static MidLine mid_line(const NodeCoordinates& x);

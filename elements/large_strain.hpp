@@ -287,13 +287,13 @@ class LargeStrain final : public Element {
 
   void add_edge(const ElementIn& in, const EdgeTraction& load, std::span<double> change, double* K) const {
     using Edge = typename Shape::Edge;
-    const std::vector<int>& nodes = edges()[static_cast<std::size_t>(load.edge)];
+    const std::vector<int>& nodes = edges()[load.edge];
     const Coordinates mesh = Coordinates::Map(in.x);
     const Coordinates moved = mesh + Coordinates::Map(in.u0) + Coordinates::Map(in.du);
     Eigen::Matrix<double, 2, Edge::nodes> of_mesh, of_moved;
     for (int i = 0; i < Edge::nodes; ++i) {
-      of_mesh.col(i) = mesh.col(nodes[static_cast<std::size_t>(i)]);
-      of_moved.col(i) = moved.col(nodes[static_cast<std::size_t>(i)]);
+      of_mesh.col(i) = mesh.col(nodes[i]);
+      of_moved.col(i) = moved.col(nodes[i]);
     }
     add_follower<Edge, Kinematics>(of_mesh, of_moved, load, nodes, change, K);
   }

@@ -23,7 +23,7 @@ struct Lagrange {
       double v = 1.0, s = 0.0;
       for (int j = 0; j <= p; ++j) {
         if (j == i) continue;
-        const double xi = at[static_cast<std::size_t>(i)], xj = at[static_cast<std::size_t>(j)];
+        const double xi = at[i], xj = at[j];
         const double factor = (x - xj) / (xi - xj);
         s = s * factor + v / (xi - xj);
         v *= factor;

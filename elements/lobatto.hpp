@@ -41,8 +41,7 @@ constexpr int lobatto_rising(int node) {
 template <int p>
 constexpr auto lobatto_line_nodes() {
   std::array<double, static_cast<std::size_t>(p) + 1> xi{};
-  for (int i = 0; i <= p; ++i)
-    xi[static_cast<std::size_t>(i)] = gauss_lobatto<p>()[static_cast<std::size_t>(lobatto_rising<p>(i))];
+  for (int i = 0; i <= p; ++i) xi[i] = gauss_lobatto<p>()[lobatto_rising<p>(i)];
   return xi;
 }
 template <int p>
@@ -63,8 +62,7 @@ constexpr auto lobatto_nodes() {
   constexpr auto grid = lobatto_grid<p>();
   std::array<ParentPoint, grid.size()> at{};
   for (std::size_t i = 0; i < at.size(); ++i)
-    at[i] = {gauss_lobatto<p>()[static_cast<std::size_t>(grid[i][0])],
-             gauss_lobatto<p>()[static_cast<std::size_t>(grid[i][1])]};
+    at[i] = {gauss_lobatto<p>()[grid[i][0]], gauss_lobatto<p>()[grid[i][1]]};
   return at;
 }
 

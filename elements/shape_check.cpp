@@ -21,7 +21,7 @@ std::string reversed_order(int nodes, int corners, const EdgeNodes& edges) {
   for (int c = corners - 1; c >= 0; --c) text += (text.empty() ? "" : " ") + number(c);
   int outside = corners;
   for (int e = 0; e < corners; ++e) {
-    const auto& edge = edges[static_cast<std::size_t>((2 * corners - 2 - e) % corners)];
+    const auto& edge = edges[(2 * corners - 2 - e) % corners];
     for (std::size_t i = edge.size(); i > 2; --i, ++outside) text += " " + number(edge[i - 1]);
   }
   for (int i = nodes - 1; i >= outside; --i) text += " " + number(i);

@@ -99,9 +99,7 @@ class Solid final : public SolidKernel<Shape, Kinematics, Rule, strain> {
     if constexpr (strain == AssumedStrain::enhanced) write_modes(x, block);
   }
 
-  Vector2 position(const NodeCoordinates& x, int point) const override {
-    return x * points_[static_cast<std::size_t>(point)].N;
-  }
+  Vector2 position(const NodeCoordinates& x, int point) const override { return x * points_[point].N; }
 
   // f_i += integral N_i b dV
   void body_load(const NodeCoordinates& nodes, const Vector2& b, std::span<double> f) const override {
@@ -120,9 +118,9 @@ class Solid final : public SolidKernel<Shape, Kinematics, Rule, strain> {
   void edge_load(const NodeCoordinates& x, int edge, const Vector2& normal, const Vector2& shear,
                  std::span<double> f) const override {
     using Edge = typename Shape::Edge;
-    const std::vector<int>& nodes = edges().at(static_cast<std::size_t>(edge));
+    const std::vector<int>& nodes = edges().at(edge);
     Eigen::Matrix<double, 2, Edge::nodes> ends;
-    for (int i = 0; i < Edge::nodes; ++i) ends.col(i) = x.col(nodes[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < Edge::nodes; ++i) ends.col(i) = x.col(nodes[i]);
     add_edge_load<Edge, Kinematics>(ends, normal, shear, nodes, f);
   }
 

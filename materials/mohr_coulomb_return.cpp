@@ -62,7 +62,7 @@ struct PlaneSet {
   PlaneSet(const MohrCoulombPlanes& planes, const Matrix3& D, const ActiveSet& set) {
     Matrix3 B, unused = Matrix3::Zero();
     for (int i = 0; i < 3; ++i) {
-      const Plane plane = set[static_cast<std::size_t>(i)];
+      const Plane plane = set[i];
       A.col(i) = normal(plane, planes.N);
       B.col(i) = normal(plane, planes.M);
       y[i] = plane < t1 ? planes.Y : plane < none ? planes.T : 0.0;
@@ -129,7 +129,7 @@ Vector3 rate_of(const MovingPlanes& moving, const Matrix3& D, const Candidate& c
   }
   Vector3 right, flow = Vector3::Zero();
   for (int i = 0; i < 3; ++i) {
-    const Plane plane = c.set[static_cast<std::size_t>(i)];
+    const Plane plane = c.set[i];
     // d(normal)/d(slope): the slope stands with the larger of the two principals.
     const Vector3 turn = plane < t1 ? Vector3(normal(plane, 1.0) - normal(plane, 0.0)) : Vector3::Zero();
     flow += rates.M * c.lambda[i] * turn;
@@ -162,12 +162,12 @@ struct InAxes {
     order = axes.zz >= axes.a   ? std::array<int, 3>{2, 0, 1}
             : axes.zz >= axes.b ? std::array<int, 3>{0, 2, 1}
                                 : std::array<int, 3>{0, 1, 2};
-    for (int i = 0; i < 3; ++i) sorted[i] = value[order[static_cast<std::size_t>(i)]];
+    for (int i = 0; i < 3; ++i) sorted[i] = value[order[i]];
   }
   // [a b zz ab] of values in the order from largest to smallest.
   Vector4 unsorted(const Vector3& from_largest) const {
     Vector4 all = Vector4::Zero();
-    for (int i = 0; i < 3; ++i) all[order[static_cast<std::size_t>(i)]] = from_largest[i];
+    for (int i = 0; i < 3; ++i) all[order[i]] = from_largest[i];
     return all;
   }
 
@@ -184,8 +184,7 @@ MohrCoulombReturn in_place(const MohrCoulombPlanes& planes, const InAxes& trial,
   const Vector4 sigma = trial.unsorted(answer.sigma);
   Matrix4 R = Matrix4::Zero();
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      R(trial.order[static_cast<std::size_t>(i)], trial.order[static_cast<std::size_t>(j)]) = answer.R(i, j);
+    for (int j = 0; j < 3; ++j) R(trial.order[i], trial.order[j]) = answer.R(i, j);
   const double apart = axes.a - axes.b;
   const bool distinct = apart > 1e-9 * trial.value.cwiseAbs().maxCoeff();
   R(3, 3) = distinct ? (sigma[0] - sigma[1]) / apart : 0.5 * (R(0, 0) - R(0, 1) - R(1, 0) + R(1, 1));

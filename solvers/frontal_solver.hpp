@@ -75,9 +75,7 @@ class Frontal : public MatrixSolver, public BorderSolver {
   // run is largest then.  No more than what there is if all fronts of one shape turn out to be the same.
   void touch_subtrees_early();
 
-  std::int64_t terms_of(int f) const {
-    return (traits().symmetric ? 1 : 2) * tree_.fronts[static_cast<std::size_t>(f)].arm_terms();
-  }
+  std::int64_t terms_of(int f) const { return (traits().symmetric ? 1 : 2) * tree_.fronts[f].arm_terms(); }
   double operations() const;
 
   // Of what is touched: of the factors, those that are kept.
@@ -106,10 +104,10 @@ class Frontal : public MatrixSolver, public BorderSolver {
   void take_report();
 
   Arms arms(int f, Lane& lane) {
-    const Front& front = tree_.fronts[static_cast<std::size_t>(f)];
+    const Front& front = tree_.fronts[f];
     double* upper = factors_.data() + front.arms;
     double* lower = traits().symmetric ? lane.scratch.data() : upper + front.arm_terms();
-    return {front, upper, lower, reciprocal_.data() + first_pivot_[static_cast<std::size_t>(f)]};
+    return {front, upper, lower, reciprocal_.data() + first_pivot_[f]};
   }
   double* border(int f, Lane& lane);
   // A border that is complete.
@@ -142,7 +140,7 @@ class Frontal : public MatrixSolver, public BorderSolver {
   void take_outside(int f) const;
   // U, or L transposed, which only unsymmetric matrices have.
   const double* arm_of(int f, bool lower) const {
-    const Front& front = tree_.fronts[static_cast<std::size_t>(f)];
+    const Front& front = tree_.fronts[f];
     return factors_.data() + front.arms + (lower ? front.arm_terms() : 0);
   }
   // Asks the memory for an arm of the front that comes next, while the one before it is in work: fronts are short, and
@@ -152,7 +150,7 @@ class Frontal : public MatrixSolver, public BorderSolver {
     constexpr std::int64_t kLine = 8, kMost = 16384;  // terms: of a cache line; half of a small second cache
     if (f < 0 || static_cast<std::size_t>(f) >= tree_.fronts.size()) return;
     const double* const arm = arm_of(f, lower);
-    const std::int64_t terms = std::min(tree_.fronts[static_cast<std::size_t>(f)].arm_terms(), kMost);
+    const std::int64_t terms = std::min(tree_.fronts[f].arm_terms(), kMost);
     for (std::int64_t t = 0; t < terms; t += kLine) __builtin_prefetch(arm + t, 0, 2);
   }
 

@@ -91,7 +91,7 @@ class PivotCheck {
 
   void take(int equation, double pivot) {
     const double size = pivot < 0.0 ? -pivot : pivot;
-    const double scale = row_maxima_[static_cast<std::size_t>(equation)];
+    const double scale = row_maxima_[equation];
     negative_ += pivot < 0.0;
     // The comparison is written so that a pivot that is not a number fails it.
     if (!(size > negligible_ * scale)) throw_singular(equation, scale > 0.0 ? size / scale : 0.0, solver_);

@@ -137,13 +137,11 @@ class TwinFronts {
   void find(const FrontTree& tree, std::span<const double> values);
 
   // The first front with the factors of this one; itself where it is the first.
-  int first(int front) const { return first_[static_cast<std::size_t>(front)]; }
+  int first(int front) const { return first_[front]; }
   std::span<const int> first() const { return first_; }
   bool is_first(int front) const { return first(front) == front; }
   // Whether it may be found to be the twin of an earlier one.
-  bool may_repeat(int front) const {
-    return !shape_.empty() && shape_[static_cast<std::size_t>(front)] != front;
-  }
+  bool may_repeat(int front) const { return !shape_.empty() && shape_[front] != front; }
 
  private:
   std::vector<int> first_;  // of every front
@@ -156,7 +154,7 @@ class LentBorders {
  public:
   // first: of every front the first one like it.  None is made yet.
   void plan(const FrontTree& tree, std::span<const int> first);
-  bool lends(int front) const { return !slot_.empty() && slot_[static_cast<std::size_t>(front)] >= 0; }
+  bool lends(int front) const { return !slot_.empty() && slot_[front] >= 0; }
 
   // Room for the border of a front that lends; who has filled it publishes it.
   double* make(int front, std::size_t terms);
@@ -175,9 +173,7 @@ class LentBorders {
     AlignedArray terms;
     std::atomic<int> state{kPending}, takers{0};
   };
-  Border& border_of(int front) {
-    return borders_[static_cast<std::size_t>(slot_[static_cast<std::size_t>(front)])];
-  }
+  Border& border_of(int front) { return borders_[slot_[front]]; }
 
   std::vector<int> slot_;  // of every front, -1 = lends none; empty: nobody does
   std::vector<Border> borders_;

@@ -25,7 +25,7 @@ struct TileProfile {
   IndexLists right;                  // tile row K -> columns J > K that hold a tile (K, J)
   std::int64_t terms() const { return offset.back(); }  // off-diagonal terms of one triangle
 
-  int height(int J) const { return J - top[static_cast<std::size_t>(J)]; }
+  int height(int J) const { return J - top[J]; }
   std::int64_t tile(int K, int J) const { return shape().tile(K, J); }
   ProfileShape shape() const {
     return {tiles, top.data(), offset.data(), right.start.data(), right.item.data()};

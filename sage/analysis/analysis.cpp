@@ -160,7 +160,7 @@ void Analysis::Stages::begin_stage() {
   const int s = done_.stage;
   StepReport report;
   report.stage = s;
-  report.increments = model_.stages[static_cast<std::size_t>(s)].increments;
+  report.increments = model_.stages[s].increments;
   run_.show_progress(report, 0.0);
   start_.open(s);
   control_.open_stage();
@@ -174,7 +174,7 @@ void Analysis::Stages::begin_stage() {
 }
 
 bool Analysis::Stages::take_increment() {
-  const Stage& stage = model_.stages[static_cast<std::size_t>(done_.stage)];
+  const Stage& stage = model_.stages[done_.stage];
   StepReport report;
   report.stage = done_.stage;
   report.increment = done_.increment + 1;
@@ -283,7 +283,7 @@ void Analysis::Stages::leave_step() {
 // Newton's matrix is singular then; a matrix that is kept from before finds an equilibrium all the same.
 void Analysis::Stages::find_loose_part(const StepReport& report) {
   std::string& part = state_.path.loose_part;
-  if (!part.empty() || report.points[static_cast<std::size_t>(PointStatus::open)] == 0) return;
+  if (!part.empty() || report.points[PointStatus::open] == 0) return;
   part = explain_loose_part(model_, system_.activity(), system_.assembly());
   if (!part.empty()) part = "increment " + std::to_string(report.increment) + ": " + part;
 }

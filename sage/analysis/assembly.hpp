@@ -127,7 +127,7 @@ class Assembly {
   // That addition, of the last pass; size 0 where no load follows the motion.
   const Eigen::VectorXd& load_change() const { return element_.load_change(); }
   // sqrt(sum over elements of |f_e|^2), of a field of unknowns: a scale that vanishes only in a stress-free mesh.
-  double force_scale(int field) const { return force_scale_[static_cast<std::size_t>(field)]; }
+  double force_scale(int field) const { return force_scale_[field]; }
 
   // States of all groups and what goes with them.  before_step: those of active groups as they were before the
   // last commit (reading gives them back as committed).

@@ -45,7 +45,7 @@ EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
       sums.applied += external[dof];
       sums.reactions += reaction;
       sums.scale += size;
-      if (model.unknowns[static_cast<std::size_t>(field)].turns) {  // couples have the same moment everywhere
+      if (model.unknowns[field].turns) {  // couples have the same moment everywhere
         audit.moment += external[dof] + reaction;
         moment_scale += size;
       }

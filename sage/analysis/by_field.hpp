@@ -11,10 +11,10 @@
 namespace sage {
 
 inline double& at(FieldSums& values, int field) {
-  return values[static_cast<std::size_t>(field)];
+  return values[field];
 }
 inline double at(const FieldSums& values, int field) {
-  return values[static_cast<std::size_t>(field)];
+  return values[field];
 }
 
 // Dofs and equations of a field are contiguous, fields in their order: a field is a piece of a vector.

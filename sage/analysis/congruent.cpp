@@ -33,8 +33,7 @@ std::vector<int> shapes_of(const Mesh& mesh, const Group& group, Geometry geomet
     element_coordinates(mesh, group, e, x);
     make_key(x, geometry == Geometry::axisymmetric, unit, key);
     bytes.assign(reinterpret_cast<const char*>(key.data()), key.size() * sizeof key[0]);
-    shapes[static_cast<std::size_t>(e)] =
-        known.try_emplace(bytes, static_cast<int>(known.size())).first->second;
+    shapes[e] = known.try_emplace(bytes, static_cast<int>(known.size())).first->second;
   }
   return shapes;
 }

@@ -35,7 +35,7 @@ bool ConvergenceCriterion::is_met(std::span<const FieldMeasure> fields, const It
   if (count == 1) return is_met(fields[0], record, 0, count, history, rounding);
   if (stopped_falling_linear(record, history) && falls_no_more(history)) return true;
   for (int f = 0; f < count; ++f) {
-    const FieldMeasure& measure = fields[static_cast<std::size_t>(f)];
+    const FieldMeasure& measure = fields[f];
     if (!is_met(measure, measure.record, f, count, history, rounding) && !is_even(measure, f, rounding))
       return false;
   }

@@ -11,7 +11,7 @@ namespace sage {
 // Whose dofs move the ground.  Frames without ground collapse by themselves.
 void DampedSteps::open_stage() {
   const std::vector<GroupData>& groups = run_.assembly().groups();
-  of_solids_.assign(static_cast<std::size_t>(run_.assembly().dof_map().displacements()), 0);
+  of_solids_.assign(run_.assembly().dof_map().displacements(), 0);
   stage_u_ = run_.state.u;
   has_walls_ = false;
   const bool ground =
@@ -21,7 +21,7 @@ void DampedSteps::open_stage() {
     has_walls_ = has_walls_ || data.group->interface() || data.group->structure();
     if (!(ground ? data.group->solid() : data.group->structure())) continue;
     for (const int node : data.group->nodes)
-      for (int c = 0; c < 2; ++c) of_solids_[static_cast<std::size_t>(DofMap::displacement(node, c))] = 1;
+      for (int c = 0; c < 2; ++c) of_solids_[DofMap::displacement(node, c)] = 1;
   }
 }
 
@@ -64,7 +64,7 @@ bool shows_collapse(const NewtonStep& step) {
 double largest_of_solids(const Eigen::VectorXd& motion, const std::vector<char>& of_solids) {
   double most = 0.0;
   for (std::size_t i = 0; i < of_solids.size(); ++i) {
-    const double moved = of_solids[i] != 0 ? std::abs(motion[static_cast<Eigen::Index>(i)]) : 0.0;
+    const double moved = of_solids[i] != 0 ? std::abs(motion[i]) : 0.0;
     if (!(moved <= most)) most = moved;  // not a number counts
   }
   return most;

@@ -57,7 +57,7 @@ const double* ElementWork::geometry_of(GroupData& data, int element) {
 const PointContext* ElementWork::contexts_of(const GroupData& data, int element) {
   element_coordinates(model_->mesh, *data.group, element, x_);
   for (int p = 0; p < data.group->element->traits().points; ++p)
-    contexts_[static_cast<std::size_t>(p)] = context_of(data, element, x_, p, step_time_);
+    contexts_[p] = context_of(data, element, x_, p, step_time_);
   return contexts_.data();
 }
 
@@ -159,8 +159,7 @@ void add_force(const GroupData& data, int element, const double* f, Eigen::Vecto
   }
   const ElementDofs dofs = data.dofs_of(element);
   dofs.add(f, to);
-  for (std::size_t i = 0; i < dofs.size(); ++i)
-    sums[static_cast<std::size_t>(data.field_of_dof[i])] += f[i] * f[i];
+  for (std::size_t i = 0; i < dofs.size(); ++i) sums[data.field_of_dof[i]] += f[i] * f[i];
 }
 
 bool has_matrix_of_step(const GroupData& data) {

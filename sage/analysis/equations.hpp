@@ -16,7 +16,7 @@ class Equations {
     used_ = active_dofs(model, activity);
     std::vector<int> dofs;
     for (int dof = 0; dof < map.dofs(); ++dof)
-      if (in_use(dof) && !activity.held[static_cast<std::size_t>(dof)]) dofs.push_back(dof);
+      if (in_use(dof) && !activity.held[dof]) dofs.push_back(dof);
     take_only(std::move(dofs), static_cast<std::size_t>(map.dofs()));
   }
   // Those of the other dofs leave the system.
@@ -25,17 +25,16 @@ class Equations {
   int count() const { return static_cast<int>(dofs_.size()); }
   const std::vector<int>& dofs() const { return dofs_; }       // of each equation
   const std::vector<int>& of_dofs() const { return of_dof_; }  // of each dof; -1 = none
-  int of(int dof) const { return of_dof_[static_cast<std::size_t>(dof)]; }
-  int dof(int equation) const { return dofs_[static_cast<std::size_t>(equation)]; }
+  int of(int dof) const { return of_dof_[dof]; }
+  int dof(int equation) const { return dofs_[equation]; }
   // False: no active element has this dof.
-  bool in_use(int dof) const { return used_[static_cast<std::size_t>(dof)] != 0; }
+  bool in_use(int dof) const { return used_[dof] != 0; }
 
  private:
   void take_only(std::vector<int> dofs, std::size_t all) {
     dofs_ = std::move(dofs);
     of_dof_.assign(all, -1);
-    for (std::size_t eq = 0; eq < dofs_.size(); ++eq)
-      of_dof_[static_cast<std::size_t>(dofs_[eq])] = static_cast<int>(eq);
+    for (std::size_t eq = 0; eq < dofs_.size(); ++eq) of_dof_[dofs_[eq]] = static_cast<int>(eq);
   }
 
   std::vector<char> used_;  // one flag per dof

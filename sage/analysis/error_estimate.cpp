@@ -81,11 +81,11 @@ CornerRule corner_rule(const ElementEntry& entry) {
   CornerRule rule;
   const std::span<const RulePoint> points =
       entry.square() ? std::span<const RulePoint>(GaussSquare<3>::table) : Triangle6::table;
-  rule.shares.resize(static_cast<Eigen::Index>(points.size()), entry.corners);
+  rule.shares.resize(points.size(), entry.corners);
   rule.w.resize(rule.shares.rows());
   const double size = entry.square() ? 4.0 : 0.5;
   for (Eigen::Index i = 0; i < rule.w.size(); ++i) {
-    const RulePoint& point = points[static_cast<std::size_t>(i)];
+    const RulePoint& point = points[i];
     rule.at.push_back({point.xi, point.eta});
     const std::array<double, 4> shares = corner_shares(entry.corners, rule.at.back());
     for (Eigen::Index k = 0; k < rule.shares.cols(); ++k)
@@ -131,7 +131,7 @@ class ElementPoints {
     u.resize(2, traits_.nodes);
     at.resize(2, traits_.points);
     w.resize(traits_.points);
-    if (data.geometry.empty()) made_.resize(static_cast<std::size_t>(traits_.geometry_size()));
+    if (data.geometry.empty()) made_.resize(traits_.geometry_size());
     if (data.keeps_matrices() && data.geometry.empty()) take_shapes();
   }
 
@@ -139,7 +139,7 @@ class ElementPoints {
     const Element& element = *data_.group->element;
     element_coordinates(model_.mesh, *data_.group, e, x);
     if (of_shape_.size() > 0)
-      w = of_shape_.col(data_.matrix[static_cast<std::size_t>(e)]);
+      w = of_shape_.col(data_.matrix[e]);
     else
       make_weights(e);
     const auto first = 4 * static_cast<std::size_t>(e) * static_cast<std::size_t>(traits_.points);
@@ -172,7 +172,7 @@ class ElementPoints {
     if (!data_.constant || data_.matrix.size() < kFewer * shapes) return;
     of_shape_.resize(traits_.points, static_cast<Eigen::Index>(shapes));
     for (int e = 0, made = 0; e < data_.group->elements(); ++e) {
-      if (data_.matrix[static_cast<std::size_t>(e)] != made) continue;
+      if (data_.matrix[e] != made) continue;
       element_coordinates(model_.mesh, *data_.group, e, x);
       make_weights(e);
       of_shape_.col(made++) = w;
@@ -265,7 +265,7 @@ class PointsBetween {
     if (D_) {
       const Eigen::Matrix4Xd strain = own.strain * map_.transpose();
       for (Eigen::Index i = 0; i < s.points; ++i)
-        between.col(i) += *D_ * (strain_.at(static_cast<std::size_t>(i), x, own.u) - strain.col(i));
+        between.col(i) += *D_ * (strain_.at(i, x, own.u) - strain.col(i));
     }
     CoarseShape shape;
     shape.corners = s.corners;
@@ -322,7 +322,7 @@ GroupStress group_stress(const Model& model, const Solution& solution, std::size
   std::vector<ElementPoints> points(static_cast<std::size_t>(pool.threads()),
                                     ElementPoints(model, solution, index, start));
   in_units(pool, group.elements(), [&](int first, int last, int thread) {
-    ElementPoints& own = points[static_cast<std::size_t>(thread)];
+    ElementPoints& own = points[thread];
     for (int e = first; e < last; ++e) {
       own.take(e);
       put_samples(own, to_samples, e, s);
@@ -365,13 +365,13 @@ class PatchFits {
   // Fits around all vertices inside the material; rooms: one for each thread.
   void make(const std::vector<GroupData>& groups, int material, ThreadPool& pool, std::vector<Room>& rooms) {
     std::vector<int> vertices;
-    fit_of_.assign(static_cast<std::size_t>(nodes_), -1);
+    fit_of_.assign(nodes_, -1);
     for (const ElementRef& element : elements_) {
       const Group& group = *groups[element.group].group;
       if (group.material != material) continue;
       const int* nodes = group.nodes_of(element.element);
       for (int c = 0; c < stress_[element.group].corners; ++c) {
-        int& known = fit_of_[static_cast<std::size_t>(nodes[c])];
+        int& known = fit_of_[nodes[c]];
         if (known >= 0 || !patches_.inside(nodes[c])) continue;
         known = static_cast<int>(vertices.size());
         vertices.push_back(nodes[c]);
@@ -380,7 +380,7 @@ class PatchFits {
     fits_.resize(vertices.size());
     in_units(pool, static_cast<int>(vertices.size()), [&](int first, int last, int thread) {
       for (auto v = static_cast<std::size_t>(first); v < static_cast<std::size_t>(last); ++v)
-        fits_[v] = fit(patches_.around(vertices[v]), rooms[static_cast<std::size_t>(thread)]);
+        fits_[v] = fit(patches_.around(vertices[v]), rooms[thread]);
     });
   }
 
@@ -390,7 +390,7 @@ class PatchFits {
     const int* nodes = group.nodes_of(element.element);
     room.use.clear();
     for (int c = 0; c < stress_[element.group].corners; ++c)
-      if (const int known = fit_of_[static_cast<std::size_t>(nodes[c])]; known >= 0)
+      if (const int known = fit_of_[nodes[c]]; known >= 0)
         room.use.push_back(&fits_[static_cast<std::size_t>(known)]);
     if (room.use.empty()) {
       room.own = fit(patches_.neighbours(*group.element, nodes), room);
@@ -503,8 +503,7 @@ void add_element(ErrorEstimate& estimate, const ElementRef& element, double erro
   estimate.error += error;
   estimate.element[element.group].push_back(error);
   const bool worst =
-      estimate.worst_group < 0 || error > estimate.element[static_cast<std::size_t>(estimate.worst_group)]
-                                                          [static_cast<std::size_t>(estimate.worst_element)];
+      estimate.worst_group < 0 || error > estimate.element[estimate.worst_group][estimate.worst_element];
   if (error > 0.0 && worst) {
     estimate.worst_group = static_cast<int>(element.group);
     estimate.worst_element = element.element;
@@ -573,7 +572,7 @@ class Estimation {
     squares_.resize(elements_.size());
     in_units(pool_, count_, [&](int first, int last, int thread) {
       for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i)
-        squares_[i] = squares_of(elements_[i], rooms_[static_cast<std::size_t>(thread)]);
+        squares_[i] = squares_of(elements_[i], rooms_[thread]);
     });
   }
 

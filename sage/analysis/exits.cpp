@@ -13,7 +13,7 @@ void Exits::enter(const Model& model, const Activity& activity, int stage) {
   size_ = model.mesh.x.row(1).maxCoeff() - model.mesh.x.row(1).minCoeff();
   if (const int head = find_unknown(model.unknowns, "head"); head >= 0)
     enter_field(model, activity, stage, head, false);
-  const bool flows = model.stages[static_cast<std::size_t>(stage)].pores == PoreWater::flows;
+  const bool flows = model.stages[stage].pores == PoreWater::flows;
   if (const int pores = model.pore_field(); pores >= 0 && flows)
     enter_field(model, activity, stage, pores, true);
 }
@@ -21,7 +21,7 @@ void Exits::enter(const Model& model, const Activity& activity, int stage) {
 void Exits::enter_field(const Model& model, const Activity& activity, int stage, int field, bool of_pores) {
   std::map<int, double> limits;  // by node
   for (int s = 0; s <= stage; ++s) {
-    const Stage& one = model.stages[static_cast<std::size_t>(s)];
+    const Stage& one = model.stages[s];
     for (const FieldFixity& f : one.field_fixities)
       if (f.field == field && f.code != FixityCode::unchanged) limits.erase(f.node);
     for (const Exit& exit : one.exits)
@@ -31,8 +31,7 @@ void Exits::enter_field(const Model& model, const Activity& activity, int stage,
   if (limits.empty()) return;
   const std::vector<char> active = active_dofs(model, activity);
   for (const auto& [node, limit] : limits)
-    if (const int dof = activity.dof_map.of(node, field);
-        dof >= 0 && active[static_cast<std::size_t>(dof)] != 0)
+    if (const int dof = activity.dof_map.of(node, field); dof >= 0 && active[dof] != 0)
       places_.push_back({node, dof, limit, of_pores});
 }
 
@@ -49,15 +48,13 @@ void Exits::start(const Eigen::VectorXd& u, std::vector<char>& held) {
   const auto known = [&](const Place& place) { return place.of_pores || u[place.dof] != 0.0; };
   const bool begun = std::ranges::any_of(places_, known);
   for (const Place& place : places_)
-    held[static_cast<std::size_t>(place.dof)] =
-        !begun || u[place.dof] >= place.limit - tolerance(place, u) ? 1 : 0;
+    held[place.dof] = !begun || u[place.dof] >= place.limit - tolerance(place, u) ? 1 : 0;
 }
 
 void Exits::set_rates(const Eigen::VectorXd& u, double part, const std::vector<char>& held,
                       Eigen::VectorXd& rate) const {
   for (const Place& place : places_)
-    rate[place.dof] =
-        held[static_cast<std::size_t>(place.dof)] != 0 ? (place.limit - u[place.dof]) / part : 0.0;
+    rate[place.dof] = held[place.dof] != 0 ? (place.limit - u[place.dof]) / part : 0.0;
 }
 
 // Of excess pressures `inflow` is what leaves.
@@ -68,11 +65,10 @@ bool Exits::update(const Eigen::VectorXd& u, const Eigen::VectorXd& inflow, std:
   };
   double largest = 0.0;
   for (const Place& place : places_)
-    if (held[static_cast<std::size_t>(place.dof)] != 0)
-      largest = std::max(largest, std::abs(inflow[place.dof]));
+    if (held[place.dof] != 0) largest = std::max(largest, std::abs(inflow[place.dof]));
   switched_.clear();
   for (const Place& place : places_) {
-    char& is_held = held[static_cast<std::size_t>(place.dof)];
+    char& is_held = held[place.dof];
     const bool enters = is_held != 0 && comes_in(place) > kNoFlow * largest;
     const bool stands_too_high = is_held == 0 && u[place.dof] > place.limit + tolerance(place, u);
     if (!enters && !stands_too_high) continue;
@@ -85,7 +81,7 @@ bool Exits::update(const Eigen::VectorXd& u, const Eigen::VectorXd& inflow, std:
 std::vector<int> Exits::open_pores(const std::vector<char>& held) const {
   std::vector<int> dofs;
   for (const Place& place : places_)
-    if (place.of_pores && held[static_cast<std::size_t>(place.dof)] != 0) dofs.push_back(place.dof);
+    if (place.of_pores && held[place.dof] != 0) dofs.push_back(place.dof);
   return dofs;
 }
 

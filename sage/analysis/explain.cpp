@@ -35,9 +35,8 @@ Neighbours around(const Assembly& assembly, int node) {
         result.yielded_point = result.yielded_point || is_plastic(status);
       }
       if (++shown > 4) continue;
-      result.elements += (shown > 1 ? ", " : "") +
-                         std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
-                         group.element_name + ")";
+      result.elements +=
+          (shown > 1 ? ", " : "") + std::to_string(group.element_numbers[e]) + " (" + group.element_name + ")";
     }
   }
   return result;
@@ -67,7 +66,7 @@ std::vector<int> parts_between_open_joints(const Model& model, const Assembly& a
 // True where a node's part of the mesh hangs on open interfaces: its supports alone leave it free to move.
 bool behind_open_joint(const Model& model, const Activity& activity, const Assembly& assembly, int node) {
   const std::vector<int> part = parts_between_open_joints(model, assembly, StateKind::trial);
-  const int own = part[static_cast<std::size_t>(node)];
+  const int own = part[node];
   if (own < 0) return true;
   const std::vector<LoosePart> loose = loose_parts(model, activity, part);
   return std::any_of(loose.begin(), loose.end(), [own](const LoosePart& p) { return p.part == own; });
@@ -135,7 +134,7 @@ std::array<long, kStatuses> trial_points(const Assembly& assembly) {
   std::array<long, kStatuses> counts{};
   for (const GroupData& data : assembly.groups())
     if (data.active)
-      for (PointStatus status : data.state.trial.status) ++counts[static_cast<std::size_t>(status)];
+      for (PointStatus status : data.state.trial.status) ++counts[status];
   return counts;
 }
 
@@ -166,7 +165,7 @@ std::array<std::string, 2> bracket(const StepReport& report) {
 
 // "limit load: between 0.71 and 0.72 of the stage's load", for a structure that has no stiffness left.
 std::string bracket_line(const Model& model, const StepReport& report) {
-  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const Stage& stage = model.stages[report.stage];
   const auto [from, to] = bracket(report);
   return std::string(loads(stage) && !moves(stage) ? "  limit load: " : "  equilibrium ends: ") + "between " +
          from + " and " + to + " of the " + driver_name(stage) +
@@ -176,7 +175,7 @@ std::string bracket_line(const Model& model, const StepReport& report) {
 // For one that has stiffness left, or of which nothing is known: that the program found no equilibrium does not
 // say that there is none.
 std::string unknown_end_line(const Model& model, const StepReport& report) {
-  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const Stage& stage = model.stages[report.stage];
   const auto [from, to] = bracket(report);
   std::string text = "  equilibrium was found up to " + from + " of the " + driver_name(stage) + ", not at " +
                      to + "; this needs not be a limit: ";
@@ -204,11 +203,11 @@ std::string missing_level(const UnknownField& field) {
 }
 
 const std::string& load_name(const Model& model, int field) {
-  return model.unknowns[static_cast<std::size_t>(field)].load;
+  return model.unknowns[field].load;
 }
 
 std::string load_unit(const Model& model, int field) {
-  return unit_text(model.unknowns[static_cast<std::size_t>(field)].load_dimension, model.units);
+  return unit_text(model.unknowns[field].load_dimension, model.units);
 }
 
 // "tried: method 0 (Newton), 50 iterations, steps down to 6.1e-06 of the stage".
@@ -221,7 +220,7 @@ std::string tried_line(const Stage& stage, const StepReport& report) {
 // What the states say of a singular matrix whose solver can't name the equation.
 std::string likely_anywhere(const Model& model, const Activity& activity, const Assembly& assembly) {
   const std::array<long, kStatuses> points = trial_points(assembly);
-  const auto count = [&](PointStatus status) { return points[static_cast<std::size_t>(status)]; };
+  const auto count = [&](PointStatus status) { return points[status]; };
   std::string text;
   if (count(PointStatus::open) > 0) {
     const std::vector<int> part = parts_between_open_joints(model, assembly, StateKind::trial);
@@ -250,9 +249,8 @@ std::string short_number(double value) {
 }
 
 std::string unknown_name(const Model& model, const DofMap::Unknown& unknown) {
-  const std::string node =
-      "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(unknown.node)]) + ", ";
-  if (unknown.field > 0) return node + model.unknowns[static_cast<std::size_t>(unknown.field)].name;
+  const std::string node = "node " + std::to_string(model.mesh.number[unknown.node]) + ", ";
+  if (unknown.field > 0) return node + model.unknowns[unknown.field].name;
   const bool axisymmetric = model.geometry == Geometry::axisymmetric;
   const char* direction = unknown.component == 0 ? (axisymmetric ? "r" : "x") : (axisymmetric ? "z" : "y");
   return node + "direction " + direction;
@@ -260,7 +258,7 @@ std::string unknown_name(const Model& model, const DofMap::Unknown& unknown) {
 
 std::string explain_singular(const Model& model, const Activity& activity, const Assembly& assembly,
                              const StepReport& report, const NewtonStep& step) {
-  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const Stage& stage = model.stages[report.stage];
   const std::string place = "stage " + std::to_string(report.stage + 1) + ", increment " +
                             std::to_string(report.increment) + ": the stiffness matrix is singular";
   const std::string where_it_ends = is_linear(assembly) ? "" : bracket_line(model, report);
@@ -272,7 +270,7 @@ std::string explain_singular(const Model& model, const Activity& activity, const
   std::string text = place + " at " + unknown_name(model, unknown) + " (" + step.message + ").\n";
   text += "  elements there: " + near.elements + "\n  likely: ";
   if (unknown.field > 0)
-    text += missing_level(model.unknowns[static_cast<std::size_t>(unknown.field)]);
+    text += missing_level(model.unknowns[unknown.field]);
   else if (near.open_point || behind_open_joint(model, activity, assembly, unknown.node))
     text +=
         "an interface there is open and carries nothing: the part behind it is loose.\n"
@@ -306,7 +304,7 @@ std::string loose_node(const Model& model, const Activity& activity, const std::
   for (int dof = 0; dof < activity.dof_map.displacements(); ++dof) {
     const DofMap::Unknown unknown = activity.dof_map.at(dof);
     const auto node = static_cast<std::size_t>(unknown.node);
-    if (!active[node] || part[node] >= 0 || activity.held[static_cast<std::size_t>(dof)]) continue;
+    if (!active[node] || part[node] >= 0 || activity.held[dof]) continue;
     return "all interfaces at " + unknown_name(model, unknown) +
            ", are open and no solid is active there: nothing holds it, " + "where it stands is arbitrary";
   }
@@ -357,7 +355,7 @@ std::string explain_failure(const Model& model, const Assembly& assembly, const 
   std::string text = "stage " + std::to_string(report.stage + 1) + ", increment " +
                      std::to_string(report.increment) + " of " + std::to_string(report.increments) +
                      ": no equilibrium found after " + std::to_string(report.cuts) + " cuts of the step.\n";
-  const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+  const Stage& stage = model.stages[report.stage];
   const bool linear = is_linear(assembly);
   const bool limit = report.stiffness_share >= 0.0 && report.stiffness_share <= kFlat;
   if (!linear) text += limit ? bracket_line(model, report) : unknown_end_line(model, report);
@@ -402,7 +400,7 @@ std::string chattering_exits(const Model& model, const Stage& stage, const std::
                      " rounds it is not settled where water leaves: the exit is switched to and fro at node";
   if (switched.size() > 1) text += "s";
   for (std::size_t i = 0; i < std::min(kShown, switched.size()); ++i)
-    text += (i > 0 ? ", " : " ") + std::to_string(model.mesh.number[static_cast<std::size_t>(switched[i])]);
+    text += (i > 0 ? ", " : " ") + std::to_string(model.mesh.number[switched[i]]);
   if (switched.size() > kShown) text += " and " + std::to_string(switched.size() - kShown) + " more";
   return text + ".\n  try: smaller elements there, or fewer exits, where it is known that they stay dry";
 }

@@ -9,9 +9,9 @@ namespace sage {
 Extent::Extent(const Model& model) : axisymmetric_(model.geometry == Geometry::axisymmetric) {
   std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups)
-    for (const int node : group.nodes) used[static_cast<std::size_t>(node)] = 1;
+    for (const int node : group.nodes) used[node] = 1;
   for (int node = 0; node < model.mesh.nodes(); ++node)
-    if (used[static_cast<std::size_t>(node)]) nodes_.push_back(node);
+    if (used[node]) nodes_.push_back(node);
   if (nodes_.empty()) return;
   Vector2 low = model.mesh.x.col(nodes_.front()), high = low;
   for (const int node : nodes_) {

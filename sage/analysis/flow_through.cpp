@@ -27,15 +27,14 @@ double largest_gradient(const Model& model, const GroupData& data, const FlowLin
   const int points = element.traits().points;
   Eigen::Matrix2Xd x;
   element_coordinates(model.mesh, *data.group, on.element, x);
-  const std::vector<int>& edge = element.edges()[static_cast<std::size_t>(on.edge)];
+  const std::vector<int>& edge = element.edges()[on.edge];
   const Vector2 along = (x.col(edge[1]) - x.col(edge[0])).normalized(), out(along.y(), -along.x());
   const std::span<const double> map = element.point_to_node(x);
   double largest = -std::numeric_limits<double>::infinity();
   for (const int node : edge) {
     Vector2 slope = Vector2::Zero();
     for (int p = 0; p < points; ++p)
-      slope += map[static_cast<std::size_t>(node * points + p)] *
-               at_point(data.state.committed.eps, points, on.element, p).head<2>();
+      slope += map[node * points + p] * at_point(data.state.committed.eps, points, on.element, p).head<2>();
     largest = std::max(largest, -slope.dot(out));
   }
   return largest;
@@ -44,9 +43,9 @@ double largest_gradient(const Model& model, const GroupData& data, const FlowLin
 // Of one edge with two or three nodes: pressure times the normal that points to the right of the line.
 Vector2 pressure_force(const Model& model, const GroupData& data, const FlowLine::Edge& on,
                        const DofMap& dof_map, const Eigen::VectorXd& u) {
-  const std::vector<int>& edge = data.group->element->edges()[static_cast<std::size_t>(on.edge)];
+  const std::vector<int>& edge = data.group->element->edges()[on.edge];
   const int field = find_unknown(model.unknowns, "head");
-  const auto node = [&](int i) { return data.group->nodes_of(on.element)[edge[static_cast<std::size_t>(i)]]; };
+  const auto node = [&](int i) { return data.group->nodes_of(on.element)[edge[i]]; };
   Vector2 force = Vector2::Zero();
   const bool curved = edge.size() > 2;
   for (const LinePoint& q : GaussLine<3>::table) {
@@ -127,9 +126,7 @@ std::vector<int> unbounded_corners(const Model& model, const Activity& activity,
                                    const std::vector<int>& nodes) {
   constexpr double kMore = 10.0 * kRadiansPerDegree;
   const int field = find_unknown(model.unknowns, "head");
-  const auto held = [&](int node) {
-    return activity.held[static_cast<std::size_t>(activity.dof_map.of(node, field))] != 0;
-  };
+  const auto held = [&](int node) { return activity.held[activity.dof_map.of(node, field)] != 0; };
   std::vector<int> found;
   for (const auto& [node, corner] : corners_at(model, activity.group, nodes)) {
     int free = 0, with_heads = 0;

@@ -29,7 +29,7 @@ void look_at(const Model& model, const Group& group, int element, const Eigen::V
   const int* const nodes = group.nodes_of(element);
   for (Eigen::Index i = 0; i < moved.cols(); ++i) moved.col(i) += u.segment<2>(DofMap::displacement(nodes[i]));
   for (int corner = 0; corner < group.entry->corners; ++corner) {
-    const std::array<double, 2>& parent = group.entry->parent_nodes[static_cast<std::size_t>(corner)];
+    const std::array<double, 2>& parent = group.entry->parent_nodes[corner];
     const double share = area_at(*group.element, moved, parent) / area_at(*group.element, mesh, parent);
     if (share < worst.share) worst = {&group, element, nodes[corner], share};
   }
@@ -53,11 +53,10 @@ std::string fold_lines(const Model& model, const Assembly& assembly, const Eigen
   const Corner& found = now.share < kNear ? now : tried;
   if (found.group == nullptr || (now.share >= kNear && !(tried.share <= 0.0))) return {};
   const Vector2 place = model.mesh.x.col(found.node) + u.segment<2>(DofMap::displacement(found.node));
-  return "  element " + std::to_string(found.group->element_numbers[static_cast<std::size_t>(found.element)]) +
-         " (group " + std::to_string(found.group->number) + ", " + found.group->element_name +
-         ") turns inside out: its corner at node " +
-         std::to_string(model.mesh.number[static_cast<std::size_t>(found.node)]) + ", now at (" +
-         short_number(place.x()) + "; " + short_number(place.y()) + "), has " +
+  return "  element " + std::to_string(found.group->element_numbers[found.element]) + " (group " +
+         std::to_string(found.group->number) + ", " + found.group->element_name +
+         ") turns inside out: its corner at node " + std::to_string(model.mesh.number[found.node]) +
+         ", now at (" + short_number(place.x()) + "; " + short_number(place.y()) + "), has " +
          short_number(100.0 * now.share) + " % of its area in the mesh at the last equilibrium" +
          (tried.share <= 0.0 ? " and is beyond zero at the last attempt" : "") +
          "\n  what helps: a free side that rolls onto a rough platen needs contact, which the model lacks; a "

@@ -70,7 +70,7 @@ FreeSurfaceBlur free_surface_blur(const Model& model, std::span<const GroupData>
       data.group->element->geometry(x, geometry);
       for (int p = 0; p < traits.points; ++p) {
         const auto point = static_cast<std::size_t>(e * traits.points + p);
-        const double w = geometry[static_cast<std::size_t>(p * (1 + 3 * traits.dofs))];
+        const double w = geometry[p * (1 + 3 * traits.dofs)];
         const double k_r = data.state.committed.h[point * history + static_cast<std::size_t>(at)];
         const double* const v = data.state.committed.sigma.data() + 3 * point;
         const double moved = w * Vector2(v[0], v[1]).norm();

@@ -73,10 +73,10 @@ struct GroupData {
     return ElementDofs({group->nodes_of(element), group->node_count()});
   }
   const double* matrix_of(int element) const {
-    return K.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs() * dofs();
+    return K.data() + static_cast<std::size_t>(matrix[element]) * dofs() * dofs();
   }
   const double* shift_of(int element) const {
-    return shift.data() + static_cast<std::size_t>(matrix[static_cast<std::size_t>(element)]) * dofs();
+    return shift.data() + static_cast<std::size_t>(matrix[element]) * dofs();
   }
 
  private:
@@ -88,8 +88,7 @@ inline void append_equations(const GroupData& data, const std::vector<int>& equa
                              ElementEquations& list) {
   for (int e = 0; e < data.group->elements(); ++e) {
     const ElementDofs dofs = data.dofs_of(e);
-    for (std::size_t i = 0; i < dofs.size(); ++i)
-      list.equations.push_back(equation_of[static_cast<std::size_t>(dofs[i])]);
+    for (std::size_t i = 0; i < dofs.size(); ++i) list.equations.push_back(equation_of[dofs[i]]);
     list.offset.push_back(static_cast<std::int64_t>(list.equations.size()));
   }
 }

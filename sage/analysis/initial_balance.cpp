@@ -12,7 +12,7 @@ namespace {
 
 // Groups that begin with stress in this stage.
 std::vector<char> stressed_groups(const Model& model, const Activity& activity, int stage) {
-  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const Stage& now = model.stages[stage];
   std::vector<char> flags(model.groups.size(), 0);
   const auto mark = [&](const InitialStress& initial) {
     if (is_about_law(initial.kind) || initial.kind == InitialKind::history ||
@@ -33,7 +33,7 @@ std::vector<char> stressed_groups(const Model& model, const Activity& activity, 
 }
 
 void mark_nodes(const Group& group, char flag, std::vector<char>& nodes) {
-  for (const int node : group.nodes) nodes[static_cast<std::size_t>(node)] = flag;
+  for (const int node : group.nodes) nodes[node] = flag;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ void mark_nodes(const Group& group, char flag, std::vector<char>& nodes) {
 InitialImbalance initial_imbalance(const Model& model, const Activity& activity, int stage,
                                    const Eigen::VectorXd& internal, const Eigen::VectorXd& external) {
   InitialImbalance worst;
-  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const Stage& now = model.stages[stage];
   const std::vector<char> stressed = stressed_groups(model, activity, stage);
   if (std::none_of(stressed.begin(), stressed.end(), [](char flag) { return flag != 0; })) return worst;
   std::vector<char> looked_at(static_cast<std::size_t>(model.mesh.nodes()), 0);
@@ -49,15 +49,15 @@ InitialImbalance initial_imbalance(const Model& model, const Activity& activity,
     if (stressed[g]) mark_nodes(model.groups[g], 1, looked_at);
   for (std::size_t g = 0; stage > 0 && g < stressed.size(); ++g)  // what was there before takes a new load
     if (activity.group[g] && !stressed[g]) mark_nodes(model.groups[g], 0, looked_at);
-  for (const int g : now.deaths) mark_nodes(model.groups[static_cast<std::size_t>(g)], 0, looked_at);
+  for (const int g : now.deaths) mark_nodes(model.groups[g], 0, looked_at);
   for (const Fixity& f : now.fixities)
     if (stage > 0 && (f.code[0] == FixityCode::released || f.code[1] == FixityCode::released))
-      looked_at[static_cast<std::size_t>(f.node)] = 0;
+      looked_at[f.node] = 0;
   const Eigen::VectorXd added = stage_loads(model, stage, activity);
   for (int dof = 0; dof < activity.dof_map.displacements(); ++dof) {
-    if (!looked_at[static_cast<std::size_t>(activity.dof_map.at(dof).node)]) continue;
+    if (!looked_at[activity.dof_map.at(dof).node]) continue;
     worst.largest = std::max(worst.largest, std::abs(internal[dof]));
-    if (activity.held[static_cast<std::size_t>(dof)]) continue;
+    if (activity.held[dof]) continue;
     const auto [low, high] = std::minmax({external[dof] - added[dof], external[dof]});
     const double off = internal[dof] - std::clamp(internal[dof], low, high);
     if (worst.dof >= 0 && std::abs(off) <= std::abs(worst.force)) continue;
@@ -101,7 +101,7 @@ InitialImbalance initial_imbalance(const Model& model) {
 
 std::string explain_imbalance(const Model& model, int stage, const InitialImbalance& imbalance) {
   if (!imbalance.counts()) return {};
-  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const Stage& now = model.stages[stage];
   const std::string share = imbalance.largest > 0.0
                                 ? short_number(100.0 * std::abs(imbalance.force) / imbalance.largest) +
                                       " % of the largest force that it puts on a node"

@@ -23,7 +23,7 @@ class LoadSum {
   template <class Add>
   void add(const Group& group, int element, Add add_load) {
     element_coordinates(model_.mesh, group, element, x_);
-    f_.assign(static_cast<std::size_t>(group.element->traits().dofs), 0.0);
+    f_.assign(group.element->traits().dofs, 0.0);
     add_load(x_, f_);
     dof_map_.list(group, element, dofs_);
     for (std::size_t i = 0; i < dofs_.size(); ++i) force_[dofs_[i]] += f_[i];
@@ -41,8 +41,8 @@ class LoadSum {
 // Of the active groups (a flag each).
 void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage, LoadSum& sum) {
   for (const EdgeLoad& load : stage.pressures) {
-    if (!active[static_cast<std::size_t>(load.group)]) continue;
-    const Group& group = model.groups[static_cast<std::size_t>(load.group)];
+    if (!active[load.group]) continue;
+    const Group& group = model.groups[load.group];
     sum.add(group, load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
       group.element->edge_load(x, load.edge, load.normal, load.shear, f);
     });
@@ -66,7 +66,7 @@ void add_point_loads(const Stage& stage, const DofMap& map, Eigen::VectorXd& for
 
 void drop_inactive(const std::vector<char>& active, Eigen::VectorXd& force) {
   for (Eigen::Index dof = 0; dof < force.size(); ++dof)
-    if (!active[static_cast<std::size_t>(dof)]) force[dof] = 0.0;
+    if (!active[dof]) force[dof] = 0.0;
 }
 
 // Compression-positive vertical and horizontal stress at a level.
@@ -103,7 +103,7 @@ const InitialStress* neighbour_of(const Model& model, const InitialStress& joint
     bool own = false;
     for (const InitialStress& initial : list) {
       own = own || &initial == &joint;
-      const Group& group = model.groups[static_cast<std::size_t>(initial.group)];
+      const Group& group = model.groups[initial.group];
       const bool of_stress = states_stress(initial.kind) || initial.kind == InitialKind::zero;
       if (of_stress && group.number == number && group.solid()) found = &initial;
     }
@@ -152,7 +152,7 @@ Vector<N> initial_stress(const InitialStress& initial, const InitialStress* neig
       return traction(solid_stress(*neighbour, group.element->position(x, point), u), x);
   Vector<N> sigma = Vector<N>::Zero();
   if (initial.kind == InitialKind::uniform)
-    for (int i = 0; i < N; ++i) sigma[i] = -initial.value[static_cast<std::size_t>(i)];
+    for (int i = 0; i < N; ++i) sigma[i] = -initial.value[i];
   if (initial.kind == InitialKind::lock_off) sigma[0] = -initial.value[0] / spacing;
   return sigma;
 }
@@ -208,9 +208,9 @@ std::vector<FollowedEdge> followed_edges(const Model& model, int stage, int grou
   std::vector<FollowedEdge> edges;
   Activity activity(model);
   for (int s = 0; s <= stage; ++s) {
-    const Stage& now = model.stages[static_cast<std::size_t>(s)];
+    const Stage& now = model.stages[s];
     activity.enter(now);
-    if (!activity.group[static_cast<std::size_t>(group)]) continue;
+    if (!activity.group[group]) continue;
     for (const EdgeLoad& load : now.pressures) {
       if (load.group != group) continue;
       auto at = std::ranges::find_if(edges, [&](const FollowedEdge& edge) {
@@ -233,7 +233,7 @@ std::vector<FollowedEdge> followed_edges(const Model& model, int stage, int grou
 
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
-  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const Stage& now = model.stages[stage];
   add_point_loads(now, activity.dof_map, force);
   if (!force.isZero(0.0)) drop_inactive(active_dofs(model, activity), force);
   LoadSum sum(model, activity.dof_map, force);
@@ -260,7 +260,7 @@ Eigen::VectorXd supported_values(const Model& model, int stage, const DofMap& ma
       if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::released)
         values[dof] = 0.0;
   }
-  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  const Stage& now = model.stages[stage];
   for (const FieldFixity& f : now.field_fixities)
     if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed)
       values[dof] += added_at(f, 0.0, now.duration);
@@ -342,8 +342,7 @@ void apply_initial_history(const Model& model, const InitialStress& initial, Gro
       throw InputError("S236", initial.where,
                        "group " + std::to_string(group.number) + ": " + model.material_of(group).law_name +
                            " can't go on from this history at its initial stress, at point " +
-                           std::to_string(p + 1) + " of element " +
-                           std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
+                           std::to_string(p + 1) + " of element " + std::to_string(group.element_numbers[e]));
     }
 }
 
@@ -391,10 +390,9 @@ void apply_initials(const Model& model, const std::vector<InitialStress>& initia
                     std::vector<GroupData>& groups, Diagnostics& diagnostics) {
   for (const InitialStress& initial : initials)
     if (states_stress(initial.kind) || initial.kind == InitialKind::zero)
-      apply_initial_stress(model, initial, water, groups[static_cast<std::size_t>(initial.group)], diagnostics);
+      apply_initial_stress(model, initial, water, groups[initial.group], diagnostics);
   for (const InitialStress& initial : initials)
-    if (initial.kind == InitialKind::history)
-      apply_initial_history(model, initial, groups[static_cast<std::size_t>(initial.group)]);
+    if (initial.kind == InitialKind::history) apply_initial_history(model, initial, groups[initial.group]);
 }
 
 namespace {

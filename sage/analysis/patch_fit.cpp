@@ -70,10 +70,10 @@ Patches::Patches(const Model& model, const std::vector<char>& of_these,
   std::partial_sum(start_.begin(), start_.end(), start_.begin());
   items_.resize(start_.back());
   std::vector<std::size_t> end(start_.begin(), start_.end() - 1);
-  for_edges([&](std::size_t k, int from) { items_[end[static_cast<std::size_t>(from)]++] = k; });
+  for_edges([&](std::size_t k, int from) { items_[end[from]++] = k; });
   const SolidEdges edges(model, [&](std::size_t group) { return present[group] != 0; });
   edges.for_single([&](int node, const SolidEdge& edge) {
-    for (const int vertex : {node, edge.other}) on_boundary_[static_cast<std::size_t>(vertex)] = 1;
+    for (const int vertex : {node, edge.other}) on_boundary_[vertex] = 1;
   });
 }
 

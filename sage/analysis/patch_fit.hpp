@@ -64,7 +64,7 @@ class Patches {
     const auto v = static_cast<std::size_t>(vertex);
     return std::span(items_).subspan(start_[v], start_[v + 1] - start_[v]);
   }
-  bool inside(int vertex) const { return !on_boundary_[static_cast<std::size_t>(vertex)]; }
+  bool inside(int vertex) const { return !on_boundary_[vertex]; }
   // Around all vertices of an element, each once, sorted.
   std::vector<std::size_t> neighbours(const Element& element, const int* nodes) const;
 

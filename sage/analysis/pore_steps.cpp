@@ -57,14 +57,13 @@ Eigen::VectorXd pore_volumes(const Model& model, std::span<const GroupData> grou
   for (const GroupData& data : groups) {
     const ElementTraits& traits = data.group->element->traits();
     if (!data.active || !data.group->solid() || !data.group->entry->has_pores()) continue;
-    geometry.resize(static_cast<std::size_t>(traits.geometry_size()));
+    geometry.resize(traits.geometry_size());
     const int corners = data.group->entry->corners;
     for (int e = 0; e < data.group->elements(); ++e) {
       element_coordinates(model.mesh, *data.group, e, x);
       data.group->element->geometry(x, geometry);
       double volume = 0.0;
-      for (int p = 0; p < traits.points; ++p)
-        volume += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+      for (int p = 0; p < traits.points; ++p) volume += geometry[p * (1 + traits.law_size * traits.dofs)];
       for (int i = 0; i < corners; ++i) volumes[map.of(data.group->nodes_of(e)[i], field)] += volume / corners;
     }
   }

@@ -73,13 +73,12 @@ std::vector<Diagnostic> closed_part_warnings(const Model& model, const Stage& st
   const int parts = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
   std::vector<char> open(static_cast<std::size_t>(parts), 0);
   for (const auto& [dof, supported] : activity.pores)
-    if (const int p = part[static_cast<std::size_t>(activity.dof_map.at(dof).node)]; supported && p >= 0)
-      open[static_cast<std::size_t>(p)] = 1;
+    if (const int p = part[activity.dof_map.at(dof).node]; supported && p >= 0) open[p] = 1;
   for (const int node : exits)
-    if (const int p = part[static_cast<std::size_t>(node)]; p >= 0) open[static_cast<std::size_t>(p)] = 1;
+    if (const int p = part[node]; p >= 0) open[p] = 1;
   std::vector<Diagnostic> list;
   for (int p = 0; p < parts; ++p)
-    if (!open[static_cast<std::size_t>(p)])
+    if (!open[p])
       list.push_back(stage_message(stage, "S365",
                                    "no excess pressure is held in the " + part_name(model, part, p) +
                                        ": no water can leave, and pressures even out without going to zero"));
@@ -113,7 +112,7 @@ std::vector<Diagnostic> short_step_warnings(const Model& model, const Stage& sta
         if (c > 0.0) longest = std::max(longest, h * h / (6.0 * stage.theta * c));
       }
       if (!(dt < (1.0 - 1e-9) * longest)) continue;
-      numbers.push_back(data.group->element_numbers[static_cast<std::size_t>(e)]);
+      numbers.push_back(data.group->element_numbers[e]);
       least = std::max(least, longest);
     }
   }
@@ -146,21 +145,19 @@ std::vector<Diagnostic> oscillation_warnings(const Model& model, const Stage& st
   double largest = 0.0;
   visit([&](int a, int b) {
     const double p = u[dof_of(b)];
-    least[static_cast<std::size_t>(a)] = std::min(least[static_cast<std::size_t>(a)], p);
-    most[static_cast<std::size_t>(a)] = std::max(most[static_cast<std::size_t>(a)], p);
+    least[a] = std::min(least[a], p);
+    most[a] = std::max(most[a], p);
     largest = std::max(largest, std::abs(p));
   });
   // Nodes across a flow along one direction have the same pressure.
   const double even = 1e-9 * largest;
-  const auto is_top = [&](int node) { return u[dof_of(node)] >= most[static_cast<std::size_t>(node)] - even; };
-  const auto is_bottom = [&](int node) {
-    return u[dof_of(node)] <= least[static_cast<std::size_t>(node)] + even;
-  };
+  const auto is_top = [&](int node) { return u[dof_of(node)] >= most[node] - even; };
+  const auto is_bottom = [&](int node) { return u[dof_of(node)] <= least[node] + even; };
   std::vector<int> numbers;
   visit([&](int a, int b) {
     const bool held = assembly.equation_of(dof_of(a)) < 0 || assembly.equation_of(dof_of(b)) < 0;
     if (!held && u[dof_of(a)] - u[dof_of(b)] > kSmall * largest && is_top(a) && is_bottom(b))
-      numbers.push_back(model.mesh.number[static_cast<std::size_t>(a)]);
+      numbers.push_back(model.mesh.number[a]);
   });
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());

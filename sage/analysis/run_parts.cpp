@@ -56,10 +56,10 @@ std::optional<PorePressure> RunParts::water_at(int stage, const Activity& activi
 }
 
 double RunParts::end_of(const RunPlace& place) const {
-  const Stage& stage_of_place = model.stages[static_cast<std::size_t>(place.stage)];
+  const Stage& stage_of_place = model.stages[place.stage];
   const int increments = stage_of_place.increments;
   if (settings.time_scheme == nullptr && !stage_of_place.ends.empty())
-    return place.increment == 0 ? 0.0 : stage_of_place.ends[static_cast<std::size_t>(place.increment - 1)];
+    return place.increment == 0 ? 0.0 : stage_of_place.ends[place.increment - 1];
   if (settings.time_scheme == nullptr)
     return GradedIncrements(stage_of_place.grading).load_factor(place.stage, place.increment, increments);
   if (place.increment == 0) return 0.0;
@@ -115,7 +115,7 @@ void RunParts::show_progress(const StepReport& report, double load_factor) const
   if (pulse == nullptr) return;
   double all = 0.0, before = 0.0;
   for (int s = 0; s < static_cast<int>(model.stages.size()); ++s) {
-    const int increments = model.stages[static_cast<std::size_t>(s)].increments;
+    const int increments = model.stages[s].increments;
     all += increments;
     if (s < report.stage) before += increments;
   }

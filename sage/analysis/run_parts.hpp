@@ -26,7 +26,7 @@ struct RunParts {
   Tangent& tangent() const { return system.tangent(); }
   Profile& profile() const { return result.work.profile; }
   // The stage in hand.
-  const Stage& stage() const { return model.stages[static_cast<std::size_t>(state.place.stage)]; }
+  const Stage& stage() const { return model.stages[state.place.stage]; }
 
   // The committed state.
   Solution solution() const;

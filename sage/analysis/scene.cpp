@@ -60,11 +60,10 @@ Scene analyse_scene(const Model& model) {
       scene.linear_elements += group.elements();
       scene.linear_shapes += shapes.empty() ? 0 : *std::max_element(shapes.begin(), shapes.end()) + 1;
     } else {
-      for (int node : group.nodes) nonlinear[static_cast<std::size_t>(node)] = 1;
+      for (int node : group.nodes) nonlinear[node] = 1;
     }
   }
-  for (int dof = 0; dof < map.dofs(); ++dof)
-    scene.nonlinear_dofs += nonlinear[static_cast<std::size_t>(map.at(dof).node)];
+  for (int dof = 0; dof < map.dofs(); ++dof) scene.nonlinear_dofs += nonlinear[map.at(dof).node];
   return scene;
 }
 

@@ -31,8 +31,7 @@ void StageStart::open(int stage) {
   const std::vector<int> stored = free_stored_dofs(stage);
   run_.system.open_stage(stage);
   if (stage > 0) choose_laws(stage);
-  start_states(stage, run_.system.activity(), run_.model.stages[static_cast<std::size_t>(stage)].initials,
-               true);
+  start_states(stage, run_.system.activity(), run_.model.stages[stage].initials, true);
   state.du.setZero();
   state.place = {stage, 0};
   state.reached = 0.0;
@@ -54,7 +53,7 @@ std::vector<int> StageStart::free_stored_dofs(int stage) const {
   if (stage == 0 || !assembly.wants_step_time()) return dofs;
   const DofMap& map = assembly.dof_map();
   for (int dof = map.displacements(); dof < map.dofs(); ++dof) {
-    const UnknownField& field = run_.model.unknowns[static_cast<std::size_t>(map.at(dof).field)];
+    const UnknownField& field = run_.model.unknowns[map.at(dof).field];
     if (!field.balanced && !field.of_pores && assembly.equation_of(dof) >= 0) dofs.push_back(dof);
   }
   return dofs;
@@ -112,7 +111,7 @@ void StageStart::choose_laws(int stage) {
 
 // Displacements alone: strains, stresses and other unknowns stay.
 void StageStart::reset_displacements(int stage) {
-  if (!run_.model.stages[static_cast<std::size_t>(stage)].resets_displacements) return;
+  if (!run_.model.stages[stage].resets_displacements) return;
   run_.state.u.head(run_.assembly().dof_map().displacements()).setZero();
 }
 
@@ -121,7 +120,7 @@ void StageStart::start_new_nodes() {
   if (std::ranges::all_of(run_.system.activity().group, [](char active) { return active != 0; })) return;
   const std::vector<char> borne = active_dofs(run_.model, run_.system.activity());
   for (std::size_t dof = 0; dof < borne.size(); ++dof)
-    if (!borne[dof]) run_.state.u[static_cast<Eigen::Index>(dof)] = 0.0;
+    if (!borne[dof]) run_.state.u[dof] = 0.0;
 }
 
 // drainage: apply that of the stage, too.
@@ -196,7 +195,7 @@ void StageStart::begin_water(int stage, const PorePressure* water) {
 
 bool StageStart::begins_with_stress(int stage, std::size_t group) const {
   const int g = static_cast<int>(group);
-  const Stage& here = run_.model.stages[static_cast<std::size_t>(stage)];
+  const Stage& here = run_.model.stages[stage];
   const auto stated = [&](const InitialStress& initial) {
     return initial.group == g && states_stress(initial.kind);
   };

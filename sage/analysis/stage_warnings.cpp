@@ -152,7 +152,7 @@ std::vector<Diagnostic> gradient_warnings(const Model& model, const Stage& stage
     if (corners.empty()) continue;
     messages.add("S542", "report " + std::to_string(i + 1) +
                              ": the gradient across the line has no bound at node " +
-                             std::to_string(model.mesh.number[static_cast<std::size_t>(corners.front())]) +
+                             std::to_string(model.mesh.number[corners.front()]) +
                              ", where the edge of the flow makes a corner: it is left blank");
   }
   return std::move(messages).list();

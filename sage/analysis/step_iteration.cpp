@@ -21,7 +21,7 @@ StepIteration::StepIteration(Assembly& assembly_of_step, Tangent& tangent_of_ste
       criterion(settings.tolerance, settings.refine, tangent.linear()),
       residual(assembly.equations()) {
   result.outcome = StepOutcome::law_cut;
-  result.iterations.reserve(static_cast<std::size_t>(settings.max_iterations));
+  result.iterations.reserve(settings.max_iterations);
 }
 
 Outcome StepIteration::assemble(bool with_K) {

@@ -84,8 +84,7 @@ FieldMeasure StepMeasures::measure(int field, const Eigen::VectorXd& correction,
 
 IterationRecord StepMeasures::measure(const Eigen::VectorXd& correction, const Eigen::VectorXd& residual,
                                       double step_length) {
-  for (int f = 0; f < fields_.count(); ++f)
-    measured_[static_cast<std::size_t>(f)] = measure(f, correction, residual, step_length);
+  for (int f = 0; f < fields_.count(); ++f) measured_[f] = measure(f, correction, residual, step_length);
   IterationRecord record = measured_[0].record;
   const auto take = [](double& worst, double value) {
     if (!(value <= worst)) worst = value;  // not a number counts as worst
@@ -194,8 +193,7 @@ double StepMeasures::of_all_unknowns(int field) const {
 }
 
 double StepMeasures::of_moments(int field) const {
-  if (settings_.unknowns == nullptr || !(*settings_.unknowns)[static_cast<std::size_t>(field)].turns)
-    return -1.0;
+  if (settings_.unknowns == nullptr || !(*settings_.unknowns)[field].turns) return -1.0;
   return kUnitRounding * assembly_.force_scale(0) * settings_.size;
 }
 

@@ -20,8 +20,8 @@ double size_of(const Group& group, const Eigen::Matrix2Xd& x) {
 StepTime step_time_at(const Model& model, int stage, int increment, double load_factor, double share,
                       double easing) {
   double before = 0.0;
-  for (int s = 0; s < stage; ++s) before += model.stages[static_cast<std::size_t>(s)].duration;
-  const Stage& now = model.stages[static_cast<std::size_t>(stage)];
+  for (int s = 0; s < stage; ++s) before += model.stages[s].duration;
+  const Stage& now = model.stages[stage];
   // Of equal steps with one matrix the time is the same to the last bit, wherever a run is resumed.
   const bool whole = now.pores == PoreWater::flows && std::abs(share * now.increments - 1.0) < 1e-9;
   const double dt = (whole ? 1.0 / now.increments : share) * now.duration;
@@ -39,7 +39,7 @@ StepTime step_time_at(const Model& model, int stage, int increment, double load_
 
 PointContext context_of(const GroupData& data, int element, const Eigen::Matrix2Xd& x, int point,
                         const StepTime& step_time) {
-  return {.element = data.group->element_numbers[static_cast<std::size_t>(element)],
+  return {.element = data.group->element_numbers[element],
           .point = point,
           .place = data.group->element->position(x, point),
           .stage = step_time.stage,

@@ -189,7 +189,7 @@ void Net::sum_nodes(StreamFunction& result) {
   for (std::size_t node = 0; node < n; ++node)
     for (std::size_t kind = sum.size(); kind-- > 0;)
       if (weight[kind][node] > 0.0) {
-        result.at_node[static_cast<Eigen::Index>(node)] = sum[kind][node] / weight[kind][node];
+        result.at_node[node] = sum[kind][node] / weight[kind][node];
         break;
       }
 }
@@ -206,7 +206,7 @@ std::string Net::reason(const Part& part) const {
 
 // A node where two parts meet has a value in each, and so none.
 void Net::share_out() {
-  part_of_.assign(static_cast<std::size_t>(model_.mesh.nodes()), kNoPart);
+  part_of_.assign(model_.mesh.nodes(), kNoPart);
   for (std::size_t p = 0; p < parts_.size(); ++p)
     for (const int o : parts_[p].outlines)
       for (const int node : outlines_[at(o)].nodes) {
@@ -258,7 +258,7 @@ void Net::fill_middles(StreamFunction& result) const {
 StreamFunction Net::solve() {
   StreamFunction result;
   result.at_node.setConstant(model_.mesh.nodes(), kUnknown);
-  result.unique.assign(static_cast<std::size_t>(model_.mesh.nodes()), 0);
+  result.unique.assign(model_.mesh.nodes(), 0);
   done_.assign(outlines_.size(), 0);
   for (std::size_t o = 0; o < outlines_.size(); ++o)
     if (done_[o] == 0) walk(static_cast<int>(o));
@@ -285,7 +285,7 @@ StreamFunction Net::solve() {
 }  // namespace
 
 double StreamFunction::value(int node) const {
-  return unique[static_cast<std::size_t>(node)] != 0 ? at_node[node] : kUnknown;
+  return unique[node] != 0 ? at_node[node] : kUnknown;
 }
 
 StreamFunction stream_function(const Model& model, const std::vector<char>& active,

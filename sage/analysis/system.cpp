@@ -77,16 +77,16 @@ void System::analyse() {
 void System::enter(const Stage& stage) {
   activity_.enter(stage);
   for (int g : stage.births)
-    if (lived_[static_cast<std::size_t>(g)]) assembly_->reset_group(static_cast<std::size_t>(g));
+    if (lived_[g]) assembly_->reset_group(static_cast<std::size_t>(g));
   for (std::size_t g = 0; g < lived_.size(); ++g) lived_[g] = lived_[g] || activity_.group[g];
 }
 
 void System::pass_stage(int s) {
-  enter(model_.stages[static_cast<std::size_t>(s)]);
+  enter(model_.stages[s]);
 }
 
 void System::open_stage(int s) {
-  const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+  const Stage& stage = model_.stages[s];
   rate_ = prescribed_rate(stage, activity_.dof_map);
   enter(stage);
   if (stage.pores != PoreWater::flows)

@@ -120,7 +120,7 @@ class Tangent {
 // An element of the system.
 inline void add_matrix(const GroupData& data, int element, const double* K, Tangent& tangent) {
   const int place = data.first_element + element;
-  if (data.moved[static_cast<std::size_t>(element)])
+  if (data.moved[element])
     tangent.add(place, data.dofs_of(element), K);
   else
     tangent.add(place, K);

@@ -54,8 +54,7 @@ Json stages_json(const Model& model, const RunRecord& record) {
 
 Json points_json(const std::array<long, kStatuses>& points) {
   Json counts = Json::object();
-  for (int s = 0; s < kStatuses; ++s)
-    counts[std::string(status_name(static_cast<PointStatus>(s)))] = points[static_cast<std::size_t>(s)];
+  for (int s = 0; s < kStatuses; ++s) counts[std::string(status_name(static_cast<PointStatus>(s)))] = points[s];
   return counts;
 }
 
@@ -83,10 +82,10 @@ Json extremes_json(const Model& model, const std::vector<ExtremeRow>& rows) {
   Json list = Json::array();
   const FieldList fields = structure_forces(model);
   for (const ExtremeRow& row : rows) {
-    const FieldEntry& field = *fields[static_cast<std::size_t>(row.field)];
+    const FieldEntry& field = *fields[row.field];
     list.push_back(
         {{"stage", row.stage + 1},
-         {"group", model.groups[static_cast<std::size_t>(row.group)].number},
+         {"group", model.groups[row.group].number},
          {"quantity", field.name},
          {"unit", json_text(unit_text(field.dimension, model.units))},
          {"least", {{"value", row.low}, {"element", row.low_at}, {"stage", row.low_stage + 1}}},
@@ -96,11 +95,11 @@ Json extremes_json(const Model& model, const std::vector<ExtremeRow>& rows) {
 }
 
 Json end_json(const Model& model, const EnvelopeEnd& row) {
-  const Group& group = model.groups[static_cast<std::size_t>(row.group)];
+  const Group& group = model.groups[row.group];
   Json json = {{"group", group.number},
-               {"element", group.element_numbers[static_cast<std::size_t>(row.element)]},
+               {"element", group.element_numbers[row.element]},
                {"end", row.end},
-               {"node", model.mesh.number[static_cast<std::size_t>(row.node)]},
+               {"node", model.mesh.number[row.node]},
                {"x", model.mesh.x(0, row.node)},
                {"y", model.mesh.x(1, row.node)}};
   for (std::size_t q = 0; q < kEndQuantities.size(); ++q)

@@ -57,7 +57,7 @@ int first_live(const BoundsOptions& options, int stage) {
 // A stage that adds loads or moves supports asks for a load, one that adds weight alone for a factor of safety.
 bounds::Quantity quantity_of(const BoundsOptions& options, const Model& model, int stage,
                              const bounds::Ground& ground) {
-  const Stage& one = model.stages[static_cast<std::size_t>(stage)];
+  const Stage& one = model.stages[stage];
   const bool loads = !one.loads.empty() || !one.pressures.empty() || ground.domain.moved();
   const bounds::Quantity quantity =
       options.wanted == Wanted::strength || (options.wanted == Wanted::automatic && !loads)

@@ -105,7 +105,7 @@ MeshOptions spectral_mesh(const BuildOptions& asked, const Catalogue& catalogue,
   const std::vector<int> degrees = rising_degrees(catalogue);
   const int highest = static_cast<int>(degrees.size()) - 1;
   MeshOptions mesh{asked, {}};
-  mesh.build.element = degrees[static_cast<std::size_t>(std::min(level, highest))];
+  mesh.build.element = degrees[std::min(level, highest)];
   const std::string& name = catalogue.elements.find(mesh.build.element)->name;
   mesh.build.formulation = -1;
   mesh.build.refine = asked.refine + (level > highest ? 1 : 0);
@@ -230,7 +230,7 @@ void Follower::append_others(const std::vector<ReportComponent>& components, con
   std::erase_if(others_, [&](Quantity& q) {
     const ReportComponent* now = find_component(components, q.name);
     if (now == nullptr) return true;
-    q.append(*now, local[static_cast<std::size_t>(now - components.data())]);
+    q.append(*now, local[now - components.data()]);
     return false;
   });
 }
@@ -254,7 +254,7 @@ bool Follower::append(const std::vector<ReportComponent>& components, const std:
   }
   append_others(components, local);
   for (std::size_t i = 0; i < now.size(); ++i)
-    quantities_[i].append(*now[i], local[static_cast<std::size_t>(now[i] - components.data())]);
+    quantities_[i].append(*now[i], local[now[i] - components.data()]);
   return true;
 }
 

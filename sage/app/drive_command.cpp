@@ -129,7 +129,7 @@ Path path_of(const DriveOptions& options, const Subject& subject, const LabTest*
   const int size = subject.entry->law_size;
   Path path;
   path.history = subject.history;
-  path.start.assign(static_cast<std::size_t>(size), 0.0);
+  path.start.assign(size, 0.0);
   if (!options.start.empty()) {
     if (options.start.size() > path.start.size())
       throw UsageError("S904", fmt::format("--start: the law has {} components of stress", size));

@@ -56,7 +56,7 @@ Json value_json(const FieldValue& value) {
 }
 
 Json card_json(const Deck& deck, const Card& card) {
-  const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+  const CardSpec& spec = deck.specs[card.spec];
   const std::vector<FieldValue> values = deck.values(card);
   Json fields = Json::array();
   for (std::size_t i = 0; i < values.size() && !spec.fields.empty(); ++i)

@@ -98,12 +98,12 @@ std::vector<int> lines_of_interfaces(const Group& group, const std::vector<int>&
   std::vector<int> line(static_cast<std::size_t>(group.elements()));
   std::map<int, int> at_entry;  // the last element that has it
   for (int e = 0; e < group.elements(); ++e) {
-    line[static_cast<std::size_t>(e)] = e;
+    line[e] = e;
     for (std::size_t i = 0; i < group.node_count(); ++i) {
       const auto [at, added] =
           at_entry.try_emplace(entries[static_cast<std::size_t>(e) * group.node_count() + i], e);
       if (added) continue;
-      const int a = line[static_cast<std::size_t>(at->second)], b = line[static_cast<std::size_t>(e)];
+      const int a = line[at->second], b = line[e];
       if (a != b) std::ranges::replace(line, std::max(a, b), std::min(a, b));
     }
   }
@@ -129,8 +129,7 @@ PlotSeries along_interfaces(const Model& model, const Solution& solution, const 
       for (int p = 0; p < points; ++p) {
         read_field(*field.entry, PointState(model.mesh, groups[g], static_cast<std::size_t>(e * points + p)),
                    values.data());
-        rows[line[static_cast<std::size_t>(e)]].emplace_back(group.element->position(nodes, p)[axis],
-                                                             chosen(field, values.data()));
+        rows[line[e]].emplace_back(group.element->position(nodes, p)[axis], chosen(field, values.data()));
       }
     }
     for (auto& [first, row] : rows) {

@@ -34,7 +34,7 @@ class EndOfInterrupted final : public Observer {
 
   // With initial stiffness checkpoints stand between stages only: there is nothing to wait for.
   void on_increment(const Model& model, const StepReport& report, const Solution&) override {
-    const Stage& stage = model.stages[static_cast<std::size_t>(report.stage)];
+    const Stage& stage = model.stages[report.stage];
     if (stage.method == Method::initial_stiffness && report.increment < report.increments) saved();
   }
   bool wants_states(const Model&, const StepReport&) const override { return false; }

@@ -170,7 +170,7 @@ Json trial_json(const Model& model, const FactorTrial& trial) {
                {"iterations", trial.iterations},
                {"cuts", trial.cuts},
                {"yielding", trial.yielded}};
-  if (trial.node >= 0) json["node"] = model.mesh.number[static_cast<std::size_t>(trial.node)];
+  if (trial.node >= 0) json["node"] = model.mesh.number[trial.node];
   return json;
 }
 

@@ -51,7 +51,7 @@ std::vector<double> strains_of_last_stage(const Model& model) {
   Activity activity(model);
   double before = 0.0, last = 0.0;
   for (int s = 0; s < static_cast<int>(model.stages.size()); ++s) {
-    const Stage& stage = model.stages[static_cast<std::size_t>(s)];
+    const Stage& stage = model.stages[s];
     activity.enter(stage);
     if (s < report->stage) continue;
     const Eigen::VectorXd added = prescribed_rate(stage, activity.dof_map);
@@ -108,7 +108,7 @@ std::pair<Stage*, int> place_of(Model& model, const StateChoice& choice, std::ve
   const int stage = choice.stage > 0 ? choice.stage : stages;
   if (stage > stages)
     throw std::invalid_argument(fmt::format("{}: the deck has {} stages", choice.words, stages));
-  Stage& found = model.stages[static_cast<std::size_t>(stage - 1)];
+  Stage& found = model.stages[stage - 1];
   if (choice.increment > found.increments)
     throw std::invalid_argument(
         fmt::format("{}: stage {} has {} increments", choice.words, stage, found.increments));

@@ -131,9 +131,7 @@ std::string pieces_text(const std::map<std::string, RunOutcome>& runs, bool join
     for (const Group& group : outcome.model->groups)
       if (joints ? group.interface() : group.solid())
         pieces.insert(group.element_name +
-                      (joints
-                           ? shear_rule_text(outcome.model->materials[static_cast<std::size_t>(group.material)])
-                           : ""));
+                      (joints ? shear_rule_text(outcome.model->materials[group.material]) : ""));
   }
   std::string text;
   for (const std::string& piece : pieces) text += (text.empty() ? "" : "; ") + piece;

@@ -68,7 +68,7 @@ void add_polygon(std::string& out, const Frame& frame, std::span<const Vector2> 
 
 std::array<Vector2, 3> corners(const Domain& domain, const Triangle& t) {
   std::array<Vector2, 3> x;
-  for (std::size_t i = 0; i < 3; ++i) x[i] = domain.x[static_cast<std::size_t>(t.node[i])];
+  for (std::size_t i = 0; i < 3; ++i) x[i] = domain.x[t.node[i]];
   return x;
 }
 
@@ -92,7 +92,7 @@ std::vector<MovingPart> mechanism_of(const Bounds& found) {
   for (const Triangle& t : found.domain.triangles) {
     MovingPart& part = parts.emplace_back();
     for (const int node : t.node) {
-      part.corner.push_back(found.domain.x[static_cast<std::size_t>(node)]);
+      part.corner.push_back(found.domain.x[node]);
       part.motion.emplace_back(found.velocity.col(node));
     }
   }
@@ -147,8 +147,7 @@ std::string answers_table(const Bounds& found, const std::vector<OtherAnswer>& o
 
 double mobilised(const Bounds& found, std::size_t t, double factor) {
   const Domain& domain = found.domain;
-  const Strength s =
-      domain.soils[static_cast<std::size_t>(domain.triangles[t].soil)].strength.reduced(factor).in_plane();
+  const Strength s = domain.soils[domain.triangles[t].soil].strength.reduced(factor).in_plane();
   const double phi = s.friction, c = s.cohesion;
   double sum = 0.0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -233,7 +232,7 @@ std::string fields_csv(const Bounds& found, int digits) {
   for (std::size_t t = 0; t < found.domain.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
       const int node = found.domain.triangles[t].node[i];
-      const Vector2& x = found.domain.x[static_cast<std::size_t>(node)];
+      const Vector2& x = found.domain.x[node];
       fmt::format_to(to(text), "{},{:.{}g},{:.{}g}", t + 1, x.x(), digits, x.y(), digits);
       if (found.stress.cols() > 0) {
         const Vector3 s = -found.stress.col(static_cast<Eigen::Index>(3 * t + i));

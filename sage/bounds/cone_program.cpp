@@ -84,8 +84,7 @@ struct Residuals {
 // G^T x by point.
 Stresses weighed(const ConeProgram& program, const Stresses& x) {
   Stresses sum(3, program.points());
-  for (Eigen::Index c = 0; c < x.cols(); ++c)
-    sum.col(c) = program.cones[static_cast<std::size_t>(c)].G.transpose() * x.col(c);
+  for (Eigen::Index c = 0; c < x.cols(); ++c) sum.col(c) = program.cones[c].G.transpose() * x.col(c);
   return sum;
 }
 
@@ -173,7 +172,7 @@ void InteriorPoint::start() {
   for (const Cone& cone : p_.cones) size = std::max(size, cone.h0[0]);
   if (size <= 0.0) size = 1.0;
   for (Eigen::Index c = 0; c < cones; ++c) {
-    s_(0, c) = std::max(p_.cones[static_cast<std::size_t>(c)].h0[0], size);
+    s_(0, c) = std::max(p_.cones[c].h0[0], size);
     z_(0, c) = 1.0 / (static_cast<double>(cones) * s_(0, c));
   }
 }
@@ -216,11 +215,10 @@ void InteriorPoint::factorise(double soft) {
   Eigen::MatrixXd AH, K;
   factor_.factorise(
       [&](int i) -> const Eigen::MatrixXd& {
-        const Part& part = p_.parts[static_cast<std::size_t>(i)];
+        const Part& part = p_.parts[i];
         AH.resize(part.A.rows(), part.A.cols());
         for (int k = 0; k < part.points; ++k)
-          AH.middleCols<3>(3 * k).noalias() =
-              part.A.middleCols<3>(3 * k) * inverse_[static_cast<std::size_t>(part.first_point + k)];
+          AH.middleCols<3>(3 * k).noalias() = part.A.middleCols<3>(3 * k) * inverse_[part.first_point + k];
         K.noalias() = AH * part.A.transpose();
         return K;
       },
@@ -293,13 +291,13 @@ Direction InteriorPoint::direction(const Residuals& r, const Stresses& target) c
   d.s.resize(3, cones);
   d.z.resize(3, cones);
   for (Eigen::Index c = 0; c < cones; ++c) {
-    const Cone& cone = p_.cones[static_cast<std::size_t>(c)];
-    const Scaling& scaling = scaling_[static_cast<std::size_t>(c)];
+    const Cone& cone = p_.cones[c];
+    const Scaling& scaling = scaling_[c];
     const Vector3 move = cone.G * d.sigma.col(c) - d.tau * cone.h1;
     d.s.col(c) = r.s.col(c) - move;
     // From the dual equations, not by W^-2, which would magnify the rounding of the stresses.
-    d.z.col(c) = left_inverse_[static_cast<std::size_t>(c)].transpose() * (r.sigma.col(c) - e.col(c));
-    if (flat_[static_cast<std::size_t>(c)]) {
+    d.z.col(c) = left_inverse_[c].transpose() * (r.sigma.col(c) - e.col(c));
+    if (flat_[c]) {
       const Vector3 last = scaling.square.col(0);
       d.z(0, c) = (move[0] - q(0, c) - last[1] * d.z(1, c) - last[2] * d.z(2, c)) / last[0];
     }
@@ -337,7 +335,7 @@ void InteriorPoint::iterate_once(bool keep_centre) {
   const double mu = centre();
   Stresses target(3, cones);
   for (Eigen::Index c = 0; c < cones; ++c) {
-    const Vector3& lambda = scaling_[static_cast<std::size_t>(c)].lambda;
+    const Vector3& lambda = scaling_[c].lambda;
     target.col(c) = -product(lambda, lambda);
   }
   if (keep_centre)
@@ -359,7 +357,7 @@ void InteriorPoint::correct(const Direction& affine, double mu, Stresses& target
                        static_cast<double>(std::max<Eigen::Index>(s_.cols(), 1));
   const double share = std::clamp(std::pow(std::max(after, 0.0) / mu, 3.0), 1e-6, 1.0);
   for (Eigen::Index c = 0; c < target.cols(); ++c) {
-    const Scaling& scaling = scaling_[static_cast<std::size_t>(c)];
+    const Scaling& scaling = scaling_[c];
     target.col(c) -= product(scaling.inverse * affine.s.col(c), scaling.W * affine.z.col(c));
     target(0, c) += share * mu;
   }
@@ -543,8 +541,7 @@ Eigen::VectorXd forces(const ConeProgram& program, const Eigen::Matrix3Xd& sigma
   for (const Part& part : program.parts) {
     const Eigen::Map<const Eigen::VectorXd> stress(sigma.data() + 3 * part.first_point, 3 * part.points);
     local.noalias() = part.A * stress;
-    for (std::size_t i = 0; i < part.equations.size(); ++i)
-      sum[part.equations[i]] += local[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < part.equations.size(); ++i) sum[part.equations[i]] += local[i];
   }
   return sum;
 }
@@ -553,9 +550,8 @@ Eigen::Matrix3Xd strains(const ConeProgram& program, const Eigen::VectorXd& u) {
   Eigen::Matrix3Xd sum = Eigen::Matrix3Xd::Zero(3, program.points());
   Eigen::VectorXd local;
   for (const Part& part : program.parts) {
-    local.resize(static_cast<Eigen::Index>(part.equations.size()));
-    for (std::size_t i = 0; i < part.equations.size(); ++i)
-      local[static_cast<Eigen::Index>(i)] = u[part.equations[i]];
+    local.resize(part.equations.size());
+    for (std::size_t i = 0; i < part.equations.size(); ++i) local[i] = u[part.equations[i]];
     Eigen::Map<Eigen::VectorXd>(sum.data() + 3 * part.first_point, 3 * part.points).noalias() =
         part.A.transpose() * local;
   }

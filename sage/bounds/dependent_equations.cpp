@@ -17,13 +17,12 @@ std::vector<std::vector<Term>> terms_by_node(const ConeProgram& program, const s
   std::vector<std::vector<Term>> terms;
   for (const Part& part : program.parts)
     for (std::size_t i = 0; i < part.equations.size(); ++i) {
-      const int node = node_of[static_cast<std::size_t>(part.equations[i])];
+      const int node = node_of[part.equations[i]];
       if (node < 0) continue;
       if (static_cast<std::size_t>(node) >= terms.size()) terms.resize(static_cast<std::size_t>(node) + 1);
       for (Eigen::Index k = 0; k < part.A.cols(); ++k)
         if (const double value = part.A(static_cast<Eigen::Index>(i), k); value != 0.0)
-          terms[static_cast<std::size_t>(node)].push_back(
-              {part.equations[i], 3 * part.first_point + static_cast<int>(k), value});
+          terms[node].push_back({part.equations[i], 3 * part.first_point + static_cast<int>(k), value});
     }
   return terms;
 }

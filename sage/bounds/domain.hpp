@@ -79,9 +79,7 @@ struct Domain {
 
   double area(const Triangle& t) const;
   double pressure(const Triangle& t, int corner) const {
-    return pore_pressure
-               ? pore_pressure(t, x[static_cast<std::size_t>(t.node[static_cast<std::size_t>(corner)])])
-               : 0.0;
+    return pore_pressure ? pore_pressure(t, x[t.node[corner]]) : 0.0;
   }
   // Some held edge moves: the load is the force that moves it.
   bool moved() const;

@@ -426,7 +426,7 @@ class Upper {
     rows_.resize(2 * nodes);
     for (std::size_t n = 0; n < nodes; ++n)
       for (std::size_t axis = 0; axis < 2; ++axis) {
-        const double v = motion[n][static_cast<Eigen::Index>(axis)];
+        const double v = motion[n][axis];
         if (!used[n]) continue;
         if (!held[n][axis])
           rows_[2 * n + axis] = {next++, 1.0};

@@ -37,7 +37,7 @@ SparseFactor::SparseFactor(int equations, std::span<const Coupling> couplings, s
     : couplings_(couplings.begin(), couplings.end()),
       place_(static_cast<std::size_t>(equations), -1),
       left_out_(static_cast<std::size_t>(equations), 0) {
-  for (const int e : left_out) left_out_[static_cast<std::size_t>(e)] = 1;
+  for (const int e : left_out) left_out_[e] = 1;
   std::vector<int> order(couplings.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   if (!order.empty()) divide(order, 0, static_cast<int>(order.size()), couplings);
@@ -54,14 +54,14 @@ int SparseFactor::divide(std::vector<int>& order, int begin, int end, std::span<
   } else {
     Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;
     for (int i = begin; i < end; ++i) {
-      const Eigen::Vector2d& x = couplings[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])].place;
+      const Eigen::Vector2d& x = couplings[order[i]].place;
       low = low.cwiseMin(x);
       high = high.cwiseMax(x);
     }
     const int axis = high.x() - low.x() >= high.y() - low.y() ? 0 : 1, middle = (begin + end) / 2;
     std::nth_element(order.begin() + begin, order.begin() + middle, order.begin() + end, [&](int a, int b) {
-      const double xa = couplings[static_cast<std::size_t>(a)].place[axis];
-      const double xb = couplings[static_cast<std::size_t>(b)].place[axis];
+      const double xa = couplings[a].place[axis];
+      const double xb = couplings[b].place[axis];
       return xa != xb ? xa < xb : a < b;
     });
     const int first = divide(order, begin, middle, couplings);
@@ -78,9 +78,9 @@ void SparseFactor::number(const std::vector<int>& order, int equations) {
   std::vector<int> first(static_cast<std::size_t>(equations), count), last(first.size(), -1),
       stamp(first.size(), -1);
   for (int i = 0; i < count; ++i)
-    for (const int e : couplings_[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])].equations) {
-      first[static_cast<std::size_t>(e)] = std::min(first[static_cast<std::size_t>(e)], i);
-      last[static_cast<std::size_t>(e)] = i;
+    for (const int e : couplings_[order[i]].equations) {
+      first[e] = std::min(first[e], i);
+      last[e] = i;
     }
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Front& front = fronts_[f];
@@ -93,9 +93,9 @@ void SparseFactor::number(const std::vector<int>& order, int equations) {
       (whole ? front.equations : kept).push_back(e);
     };
     for (const int i : front.couplings)
-      for (const int e : couplings_[static_cast<std::size_t>(i)].equations) take(e);
+      for (const int e : couplings_[i].equations) take(e);
     for (const int child : front.children) {
-      const Front& below = fronts_[static_cast<std::size_t>(child)];
+      const Front& below = fronts_[child];
       for (auto k = static_cast<std::size_t>(below.pivots); k < below.equations.size(); ++k)
         take(below.equations[k]);
     }
@@ -108,15 +108,15 @@ void SparseFactor::clear_front(std::size_t f) {
   Front& front = fronts_[f];
   const auto n = static_cast<Eigen::Index>(front.equations.size());
   for (Eigen::Index k = 0; k < n; ++k)
-    place_[static_cast<std::size_t>(front.equations[static_cast<std::size_t>(k)])] = static_cast<int>(k);
+    place_[front.equations[static_cast<std::size_t>(k)]] = static_cast<int>(k);
   work_.setZero(n, n);
   for (const int child : front.children) {
-    Front& below = fronts_[static_cast<std::size_t>(child)];
+    Front& below = fronts_[child];
     const auto first = static_cast<std::size_t>(below.pivots);
     for (Eigen::Index j = 0; j < below.border.cols(); ++j) {
-      const int pj = place_[static_cast<std::size_t>(below.equations[first + static_cast<std::size_t>(j)])];
+      const int pj = place_[below.equations[first + static_cast<std::size_t>(j)]];
       for (Eigen::Index i = j; i < below.border.rows(); ++i) {
-        const int pi = place_[static_cast<std::size_t>(below.equations[first + static_cast<std::size_t>(i)])];
+        const int pi = place_[below.equations[first + static_cast<std::size_t>(i)]];
         work_(std::max(pi, pj), std::min(pi, pj)) += below.border(i, j);
       }
     }
@@ -125,11 +125,11 @@ void SparseFactor::clear_front(std::size_t f) {
 }
 
 void SparseFactor::scatter(int coupling, const Eigen::MatrixXd& part) {
-  const std::vector<int>& equations = couplings_[static_cast<std::size_t>(coupling)].equations;
+  const std::vector<int>& equations = couplings_[coupling].equations;
   for (std::size_t j = 0; j < equations.size(); ++j) {
-    const int pj = place_[static_cast<std::size_t>(equations[j])];
+    const int pj = place_[equations[j]];
     for (std::size_t i = j; i < equations.size(); ++i) {
-      const int pi = place_[static_cast<std::size_t>(equations[i])];
+      const int pi = place_[equations[i]];
       work_(std::max(pi, pj), std::min(pi, pj)) +=
           part(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
@@ -141,7 +141,7 @@ void SparseFactor::eliminate(std::size_t f, double negligible) {
   const Eigen::Index n = work_.rows(), pivots = front.pivots;
   Eigen::VectorXd diagonal = work_.diagonal();
   for (Eigen::Index k = 0; k < pivots; ++k)
-    if (left_out_[static_cast<std::size_t>(front.equations[static_cast<std::size_t>(k)])]) diagonal[k] = kHuge;
+    if (left_out_[front.equations[static_cast<std::size_t>(k)]]) diagonal[k] = kHuge;
   for (Eigen::Index j = 0; j < pivots; j += kPanel) {
     const Eigen::Index width = std::min<Eigen::Index>(kPanel, pivots - j), below = n - j - width;
     auto block = work_.block(j, j, width, width);
@@ -158,7 +158,7 @@ void SparseFactor::eliminate(std::size_t f, double negligible) {
 void SparseFactor::solve(Eigen::VectorXd& x) const {
   Eigen::VectorXd part;
   const auto gather = [&](const Front& front) {
-    part.resize(static_cast<Eigen::Index>(front.equations.size()));
+    part.resize(front.equations.size());
     for (std::size_t k = 0; k < front.equations.size(); ++k)
       part[static_cast<Eigen::Index>(k)] = x[front.equations[k]];
   };

@@ -11,16 +11,16 @@ namespace sage::builder {
 namespace {
 
 const Group& group_of(const Builder& b, const DirectedEdge& edge) {
-  return b.model.groups[static_cast<std::size_t>(edge.group)];
+  return b.model.groups[edge.group];
 }
 
 int node_of(const Builder& b, const DirectedEdge& edge, int local) {
   const Group& group = group_of(b, edge);
-  return group.nodes[static_cast<std::size_t>(edge.element * group.entry->nodes + local)];
+  return group.nodes[edge.element * group.entry->nodes + local];
 }
 
 int number_of(const Builder& b, const DirectedEdge& edge) {
-  return group_of(b, edge).element_numbers[static_cast<std::size_t>(edge.element)];
+  return group_of(b, edge).element_numbers[edge.element];
 }
 
 // Every edge of a solid by its end nodes, in the counter-clockwise sense of the element.
@@ -200,7 +200,7 @@ void read_edge_load(Builder& b, const CardView& card, std::vector<EdgeLoad>& out
   load.shear = {listed.shear[0], listed.shear[2]};
   out.push_back(load);
   if (listed.middle < 0) return;
-  const int local = middle_of(group_of(b, edge).element->edges()[static_cast<std::size_t>(edge.edge)]);
+  const int local = middle_of(group_of(b, edge).element->edges()[edge.edge]);
   if (local < 0 || node_of(b, edge, local) != listed.middle)
     return b.error("S232", card.where("n2"),
                    "node " + std::to_string(card.integer("n2")) + " is not the middle node of edge " +

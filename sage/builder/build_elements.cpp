@@ -180,7 +180,7 @@ bool find_nodes(Builder& b, const CardView& card, const ElementCard& element, co
 }
 
 void add_element(Builder& b, const CardView& card, const ElementCard& element) {
-  Group& group = b.model.groups[static_cast<std::size_t>(element.group)];
+  Group& group = b.model.groups[element.group];
   if (!b.element_place
            .try_emplace(element.number, ElementPlace{element.group, group.elements(), element.folded})
            .second) {
@@ -199,7 +199,7 @@ void add_element(Builder& b, const CardView& card, const ElementCard& element) {
 
 // What a group's elements are where a corner repeats the next: its twin group is made on demand.
 int folded_group(Builder& b, int quad_group, int code) {
-  const Group& quads = b.model.groups[static_cast<std::size_t>(quad_group)];
+  const Group& quads = b.model.groups[quad_group];
   const int number = -quads.number;
   const auto found = b.group_index.find(number);
   if (found != b.group_index.end()) return found->second;
@@ -215,7 +215,7 @@ int folded_group(Builder& b, int quad_group, int code) {
 }
 
 void fold(Builder& b, ElementCard& element) {
-  const ElementEntry& entry = *b.model.groups[static_cast<std::size_t>(element.group)].entry;
+  const ElementEntry& entry = *b.model.groups[element.group].entry;
   const std::size_t corners = element.nodes.size();
   if (entry.folded.empty() || corners != static_cast<std::size_t>(entry.corners)) return;
   for (std::size_t i = 0; i < corners; ++i) {
@@ -279,7 +279,7 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
     b.group_missing(card.where("group"), group_number);
     return;
   }
-  const Group& target = b.model.groups[static_cast<std::size_t>(group->second)];
+  const Group& target = b.model.groups[group->second];
   if (!target.element) return;  // its own error was reported
   const ElementEntry& entry = *target.entry;
   ElementCard element{card.integer(fields.number), group->second, card_nodes(card, fields)};
@@ -309,7 +309,7 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
                " is left blank, which reads as 1");
   }
   for (int c = 0; c < entry.corners; ++c) {
-    if (element.nodes[static_cast<std::size_t>(c)] != 0) continue;
+    if (element.nodes[c] != 0) continue;
     const std::string field = "n" + std::to_string(c + 1);
     b.error("S217", card.where(field),
             "element " + std::to_string(element.number) + ": corner node " + std::to_string(c + 1) +
@@ -371,9 +371,9 @@ void associate(Material& m) {
   const int phi = m.entry->find(ParameterRole::friction_angle),
             psi = m.entry->find(ParameterRole::dilation_angle);
   if (!m.entry->for_solids() || phi < 0 || psi < 0) return;
-  m.parameters[static_cast<std::size_t>(psi)] = m.parameters[static_cast<std::size_t>(phi)];
+  m.parameters[psi] = m.parameters[phi];
   const int flow = m.entry->find("flow");  // of cones: 1 without volume change
-  if (flow >= 0) m.parameters[static_cast<std::size_t>(flow)] = 0.0;
+  if (flow >= 0) m.parameters[flow] = 0.0;
 }
 
 void read_material(Builder& b, const CardView& card, const std::vector<CardView>& parameter_cards) {
@@ -461,7 +461,7 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
   const auto found = b.material_index.find(number);
   if (found != b.material_index.end()) {
     group.second_material = found->second;
-    const Material& second = b.model.materials[static_cast<std::size_t>(found->second)];
+    const Material& second = b.model.materials[found->second];
     const MaterialEntry* const law = b.catalogue.materials.find(second.code);
     if (law_size_of(b, second) == size && law->of_pores == pores && !law->flow) return;
   }
@@ -476,8 +476,7 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
 void read_formulation(Builder& b, const CardView& card, const ElementEntry& entry, bool replaced,
                       bool material_known, Group& group) {
   const std::string name = "group " + std::to_string(group.number);
-  const Material* material =
-      material_known ? &b.model.materials[static_cast<std::size_t>(group.material)] : nullptr;
+  const Material* material = material_known ? &b.model.materials[group.material] : nullptr;
   int formulation = chosen_formulation(b, entry, card.integer("formulation"), replaced);
   if (formulation == 0 && material != nullptr && b.options.dilates)
     formulation = left_open(entry, b.model.geometry, *material);
@@ -530,7 +529,7 @@ void build_groups(Builder& b) {
       read_formulation(b, card, *entry, group.element_code != deck_code, material != b.material_index.end(),
                        group);
       if (material != b.material_index.end()) {
-        const Material& m = b.model.materials[static_cast<std::size_t>(material->second)];
+        const Material& m = b.model.materials[material->second];
         const MaterialEntry* law = b.catalogue.materials.find(m.code);
         if (law != nullptr && (law->law_size != entry->law_size || law->flow != entry->flow() || law->of_pores))
           b.error("S225", card.where("material"),

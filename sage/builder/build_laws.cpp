@@ -45,7 +45,7 @@ bool changes_law(const InitialStress& initial) {
 std::vector<Phase> phases_of(const Model& model, int g) {
   std::vector<Phase> phases;
   Phase now;
-  now.material = place_of_material(model, model.material_of(model.groups[static_cast<std::size_t>(g)]).number);
+  now.material = place_of_material(model, model.material_of(model.groups[g]).number);
   for (const InitialStress& initial : model.initials)
     if (initial.group == g && initial.kind == InitialKind::parameter) {
       now.fields.push_back(&initial);
@@ -92,7 +92,7 @@ std::vector<std::pair<std::size_t, const PlacedParameter*>> placed_in(const Buil
 bool is_plain(const Builder& b, const std::vector<Phase>& phases) {
   return phases.empty() ||
          (phases.size() == 1 && phases[0].fields.empty() && !phases[0].held && !phases[0].anew &&
-          placed_in(b.options, b.model.materials[static_cast<std::size_t>(phases[0].material)]).empty());
+          placed_in(b.options, b.model.materials[phases[0].material]).empty());
 }
 
 // Effective vertical stress (compression +) of the ground before anything is done to it: as initial cards state it, or else
@@ -144,7 +144,7 @@ class TableMaker {
 
   LawChoice choice_of(const Phase& phase) {
     LawChoice choice{phase.stage, phase.anew, {}, phase.where};
-    const Material& material = model_.materials[static_cast<std::size_t>(phase.material)];
+    const Material& material = model_.materials[phase.material];
     const auto placed = placed_in(options_, material);
     if (phase.fields.empty() && placed.empty()) {
       choice.of_point = {place(material, material.parameters, phase.held)};
@@ -188,7 +188,7 @@ class TableMaker {
 
 void make_table(Builder& b, int g, const std::vector<Phase>& phases) {
   Model& model = b.model;
-  Group& group = model.groups[static_cast<std::size_t>(g)];
+  Group& group = model.groups[g];
   const Material& own = model.material_of(group);
   if (own.entry->own_start && own.entry->own_start(own.parameters, own.name).at)
     return b.error("S611", phases.back().where,
@@ -196,7 +196,7 @@ void make_table(Builder& b, int g, const std::vector<Phase>& phases) {
                        ": the routine of its material states its first values, and so its law can't "
                        "differ by point or stage");
   const bool placed = std::ranges::any_of(phases, [&](const Phase& phase) {
-    return !placed_in(b.options, model.materials[static_cast<std::size_t>(phase.material)]).empty();
+    return !placed_in(b.options, model.materials[phase.material]).empty();
   });
   if (placed && (group.flow() || !(group.solid() || group.interface() || group.entry->law_size == 1)))
     return b.error(
@@ -232,13 +232,13 @@ void check_held_nodes(Builder& b, const Activity& activity, const std::vector<co
   std::vector<char> borne(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     if (activity.group[g] && !held_groups.contains(static_cast<int>(g)))
-      for (const int node : model.groups[g].nodes) borne[static_cast<std::size_t>(node)] = 1;
+      for (const int node : model.groups[g].nodes) borne[node] = 1;
   for (const InitialStress* card : cards)
-    for (const int node : model.groups[static_cast<std::size_t>(card->group)].nodes) {
+    for (const int node : model.groups[card->group].nodes) {
       const auto dof = static_cast<std::size_t>(DofMap::displacement(node));
-      if (borne[static_cast<std::size_t>(node)] || (activity.held[dof] && activity.held[dof + 1])) continue;
+      if (borne[node] || (activity.held[dof] && activity.held[dof + 1])) continue;
       b.error("S613", card->where,
-              "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(node)]) +
+              "node " + std::to_string(model.mesh.number[node]) +
                   " is held by nothing while the force of its bars is: in the stage of lock-off a bar has no "
                   "stiffness; support the node, or make the free length one element");
       return;
@@ -249,8 +249,8 @@ void check_held_nodes(Builder& b, const Activity& activity, const std::vector<co
 void check_present(Builder& b, const Activity& activity, const Stage& now) {
   for (const InitialStress& initial : now.initials) {
     if (!changes_law(initial)) continue;
-    const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
-    if (!activity.group[static_cast<std::size_t>(initial.group)])
+    const Group& group = b.model.groups[initial.group];
+    if (!activity.group[initial.group])
       b.error("S614", initial.where,
               group_name(group) + " is not there in stage " + std::to_string(now.number) +
                   ": its law can't change");
@@ -265,8 +265,8 @@ void check_stated_later(Builder& b) {
       if (initial.kind == InitialKind::material) changed.try_emplace(initial.group, stage.number);
       if (!changes_law(initial) && changed.contains(initial.group))
         b.error("S614", initial.where,
-                group_name(b.model.groups[static_cast<std::size_t>(initial.group)]) +
-                    " goes on with another material from stage " + std::to_string(changed.at(initial.group)) +
+                group_name(b.model.groups[initial.group]) + " goes on with another material from stage " +
+                    std::to_string(changed.at(initial.group)) +
                     " on with the stress that it has: no card states another");
     }
   }
@@ -276,10 +276,10 @@ void warn_of_weights(Builder& b) {
   for (const Stage& stage : b.model.stages)
     for (const InitialStress& initial : stage.initials) {
       if (initial.kind != InitialKind::material) continue;
-      const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+      const Group& group = b.model.groups[initial.group];
       const int place = place_of_material(b.model, static_cast<int>(initial.value[0]));
       const double before = b.model.material_of(group).unit_weight,
-                   after = b.model.materials[static_cast<std::size_t>(place)].unit_weight;
+                   after = b.model.materials[place].unit_weight;
       if (before != after)
         b.warning("S615", initial.where,
                   group_name(group) + " keeps its unit weight, " + rounded_text(before) + ", and not the " +
@@ -300,14 +300,13 @@ const Material& material_here(const Builder& b, const InitialStress& initial,
     const Material* found = nullptr;
     for (const InitialStress& one : list)
       if (one.kind == InitialKind::material && one.group == initial.group)
-        found = &b.model.materials[static_cast<std::size_t>(
-            place_of_material(b.model, static_cast<int>(one.value[0])))];
+        found = &b.model.materials[place_of_material(b.model, static_cast<int>(one.value[0]))];
     return found;
   };
   if (const Material* found = change_in(before)) return *found;
   for (auto stage = b.model.stages.rbegin(); stage != b.model.stages.rend(); ++stage)
     if (const Material* found = change_in(stage->initials)) return *found;
-  return b.model.material_of(b.model.groups[static_cast<std::size_t>(initial.group)]);
+  return b.model.material_of(b.model.groups[initial.group]);
 }
 
 bool read_material(Builder& b, const CardView& card, const Group& group, InitialStress& initial) {
@@ -315,8 +314,7 @@ bool read_material(Builder& b, const CardView& card, const Group& group, Initial
   const int number = card.integer(field);
   initial.value[0] = number;
   const int place = place_of_material(b.model, number);
-  const MaterialEntry* law =
-      place < 0 ? nullptr : b.model.materials[static_cast<std::size_t>(place)].entry.get();
+  const MaterialEntry* law = place < 0 ? nullptr : b.model.materials[place].entry.get();
   if (law == nullptr)
     return refuse(b, card.where(field),
                   "material " + std::to_string(number) + " is not defined by any material card", "S204");
@@ -364,7 +362,7 @@ bool read_parameter(Builder& b, const CardView& card, const Group& group, Initia
 
 bool read_law_card(Builder& b, const CardView& card, bool in_stage, InitialStress& initial,
                    const std::vector<InitialStress>& before) {
-  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  const Group& group = b.model.groups[initial.group];
   if (!group.element || !b.materials_known) return false;
   if (group.flow())
     return refuse(b, card.where("group"),

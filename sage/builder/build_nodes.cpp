@@ -21,7 +21,7 @@ std::vector<double> graded_fractions(int intervals, double ratio) {
   std::vector<double> at(static_cast<std::size_t>(intervals) + 1, 0.0);
   const double q = ratio > 0.0 && intervals > 1 ? std::pow(ratio, 1.0 / (intervals - 1)) : 1.0;
   double length = 1.0, sum = 0.0;
-  for (int i = 1; i <= intervals; ++i, length *= q) at[static_cast<std::size_t>(i)] = sum += length;
+  for (int i = 1; i <= intervals; ++i, length *= q) at[i] = sum += length;
   for (double& a : at) a /= sum;
   at.back() = 1.0;
   return at;
@@ -86,7 +86,7 @@ void fill_line(Builder& b, PlacedNodes& nodes, const CardView& card, const NodeC
   const double reach = std::max(cartesian(from).cwiseAbs().maxCoeff(), cartesian(to).cwiseAbs().maxCoeff());
   for (int i = 1; i < intervals; ++i) {
     NodeCard between = from;
-    between.given += at[static_cast<std::size_t>(i)] * (to.given - from.given);
+    between.given += at[i] * (to.given - from.given);
     const Vector2 at_node = on_axes(cartesian(between), reach);
     if (!place(b, nodes, card, from.number + i * step, at_node)) return;  // one message a card
   }

@@ -65,8 +65,8 @@ void require_one_component(Builder& b, const CardView& card, std::initializer_li
 bool has_unknown(Builder& b, const CardView& card, int node, int field) {
   if (b.dof_map.of(node, field) >= 0) return true;
   b.error("S235", card.where("unknown"),
-          "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) + " has no " +
-              b.model.unknowns[static_cast<std::size_t>(field)].name + ": no element there solves for it");
+          "node " + std::to_string(b.model.mesh.number[node]) + " has no " + b.model.unknowns[field].name +
+              ": no element there solves for it");
   return false;
 }
 
@@ -95,7 +95,7 @@ TimeTable read_history_of_time(Builder& b, const CardView& card, int field) {
   for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2)
     table.emplace_back((*numbers)[i], (*numbers)[i + 1]);
   const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
-  if (field == 0 || !b.model.unknowns[static_cast<std::size_t>(field)].of_pores)
+  if (field == 0 || !b.model.unknowns[field].of_pores)
     b.error("S579", card.where("history"), "a history is for the unknown excess_pressure alone");
   else if (!numbers || numbers->size() % 2 != 0 || table.empty() || text.size() > kColumnsOfText)
     b.error("S579", card.where("history"),
@@ -120,7 +120,7 @@ void read_field_fixity(Builder& b, const CardView& card, int field, const Fixity
 bool read_exit(Builder& b, const CardView& card, int field, std::vector<Exit>* out) {
   constexpr int kExit = 2;
   if (card.integer("x_code") != kExit || field == 0) return false;
-  const UnknownField& unknown = b.model.unknowns[static_cast<std::size_t>(field)];
+  const UnknownField& unknown = b.model.unknowns[field];
   if (unknown.name != "head" && !unknown.of_pores) return false;
   if (out == nullptr) {
     b.error("S233", card.where("x_code"), "an exit of water (code 2) belongs on a fixity card of a stage");
@@ -150,7 +150,7 @@ void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std
   const char* const values[] = {"x_value", "y_value"};
   for (std::size_t c = 0; c < 2; ++c) {
     b.usable(card, values[c], fixity.value[c]);
-    const bool own_value = b.model.unknowns[static_cast<std::size_t>(field)].of_pores;
+    const bool own_value = b.model.unknowns[field].of_pores;
     if (in_stage && !own_value && fixity.code[c] == FixityCode::fixed && card.blank(values[c]))
       b.note("S234", card.where(values[c]),
              "the " + card.label(values[c]) + " is left blank: held where it is" +
@@ -221,7 +221,7 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
                 "element " + std::to_string(number) + " is not defined by any element card");
       return;
     }
-    const Group& group = b.model.groups[static_cast<std::size_t>(place->group)];
+    const Group& group = b.model.groups[place->group];
     const int folded = place->folded;
     // Edges count as the element's card lists its nodes.
     const int edges = static_cast<int>(group.element->edges().size()) + (folded >= 0 ? 1 : 0);
@@ -309,7 +309,7 @@ std::string known_quantities(std::span<const Quantity> quantities) {
 // False, and an error, where the law of a group lacks what the card states, or another card states it too.
 bool fits_history(Builder& b, const CardView& card, const InitialStress& initial,
                   const std::vector<InitialStress>& before) {
-  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  const Group& group = b.model.groups[initial.group];
   const Material& material = b.model.material_of(group);
   const std::string name = "group " + std::to_string(group.number);
   const std::span<const Quantity> quantities = history_of(material.law_ref());
@@ -373,8 +373,7 @@ void read_initial(Builder& b, const CardView& card, bool in_stage, std::vector<I
   }
   if (initial.kind == InitialKind::history && !read_history(b, card, initial)) return;
   const auto first = b.group_index.find(number);
-  const Group* const group =
-      first == b.group_index.end() ? nullptr : &b.model.groups[static_cast<std::size_t>(first->second)];
+  const Group* const group = first == b.group_index.end() ? nullptr : &b.model.groups[first->second];
   note_blank_stresses(b, card, initial.kind, group);
   note_unused_values(b, card, initial.kind, group);
   bool found = false;
@@ -405,7 +404,7 @@ void check_traction(Builder& b, const CardView& card) {
   const int wanted = card.integer("v1");
   const auto stated = [&](const std::vector<InitialStress>& list) {
     return std::ranges::any_of(list, [&](const InitialStress& initial) {
-      const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+      const Group& group = b.model.groups[initial.group];
       return (states_stress(initial.kind) || initial.kind == InitialKind::zero) && group.number == wanted &&
              group.element && group.solid();
     });
@@ -425,9 +424,7 @@ void check_traction(Builder& b, const CardView& card) {
 void read_groups(Builder& b, const CardView& card, bool death, std::vector<int>& out) {
   for (const FieldValue& value : card.list("groups")) {
     bool found = false;
-    const auto same = [&](int g) {
-      return static_cast<double>(b.model.groups[static_cast<std::size_t>(g)].number) == value.number;
-    };
+    const auto same = [&](int g) { return static_cast<double>(b.model.groups[g].number) == value.number; };
     if (death && std::any_of(out.begin(), out.end(), same)) {
       b.note("S239", card.where(value),
              "group " + std::to_string(static_cast<int>(value.number)) +
@@ -619,12 +616,10 @@ void check_births(Builder& b) {
     int born = 0, dead = 0;  // stage numbers, 0 = not
   };
   std::vector<Life> lives(b.model.groups.size());
-  const auto name = [&](int g) {
-    return "group " + std::to_string(b.model.groups[static_cast<std::size_t>(g)].number);
-  };
+  const auto name = [&](int g) { return "group " + std::to_string(b.model.groups[g].number); };
   for (const Stage& stage : b.model.stages) {
     for (int g : stage.births) {
-      Life& life = lives[static_cast<std::size_t>(g)];
+      Life& life = lives[g];
       if (life.born > 0)
         b.error("S239", stage.where,
                 name(g) + " is born twice; a group that was removed needs a twin to be born again");
@@ -636,7 +631,7 @@ void check_births(Builder& b) {
       life.born = stage.number;
     }
     for (int g : stage.deaths) {
-      Life& life = lives[static_cast<std::size_t>(g)];
+      Life& life = lives[g];
       if (life.born == stage.number)
         b.error("S239", stage.where, name(g) + " is born and removed in the same stage");
       else if (life.dead > 0)
@@ -661,7 +656,7 @@ void build_stages(Builder& b) {
   for (const CardView& card : b.deck.all("stage")) {
     b.model.stages.push_back(read_stage(b, card, number + 1));
     if (static_cast<std::size_t>(number) < titles.size())
-      b.model.stages.back().title = b.text(titles[static_cast<std::size_t>(number)], "title");
+      b.model.stages.back().title = b.text(titles[number], "title");
     ++number;
   }
   for (const CardView& card : b.deck.all("initial")) check_traction(b, card);

@@ -126,8 +126,8 @@ std::vector<GroundLayer> layers_of(const std::vector<Part>& parts, std::optional
 }
 
 std::string element_name(const Builder& b, const Part& part) {
-  const Group& group = b.model.groups[static_cast<std::size_t>(part.group)];
-  return "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(part.element)]);
+  const Group& group = b.model.groups[part.group];
+  return "element " + std::to_string(group.element_numbers[part.element]);
 }
 
 // "element 3 (20) and element 7 (16), both between y = 4 and y = 5"
@@ -140,8 +140,7 @@ std::string place_of(const Builder& b, const SideBySide& two) {
 // The layer in the middle of an element's height.
 int layer_at(const std::vector<GroundLayer>& layers, double y) {
   int layer = 0;
-  while (layer + 1 < static_cast<int>(layers.size()) && y < layers[static_cast<std::size_t>(layer)].bottom)
-    ++layer;
+  while (layer + 1 < static_cast<int>(layers.size()) && y < layers[layer].bottom) ++layer;
   return layer;
 }
 
@@ -161,7 +160,7 @@ void keep_removed(Builder& b, int group, int piece) {
 
 // Layers that a group with a part in the first of them has besides.
 void split_by_layers(Builder& b, int g) {
-  const Group& group = b.model.groups[static_cast<std::size_t>(g)];
+  const Group& group = b.model.groups[g];
   std::vector<int> keys;
   for (int e = 0; e < group.elements(); ++e) keys.push_back(layer_at(b.layers, middle_of_element(b, group, e)));
   if (keys.empty()) return;
@@ -179,7 +178,7 @@ int node_at(const Builder& b, double y) {
   for (const Group& group : b.model.groups)
     for (const int node : group.nodes)
       if (is_ground(group) && node >= 0 && b.model.mesh.x(1, node) == y)
-        least = std::min(least, b.model.mesh.number[static_cast<std::size_t>(node)]);
+        least = std::min(least, b.model.mesh.number[node]);
   return least;
 }
 
@@ -220,7 +219,7 @@ std::vector<std::array<char, 2>> held_nodes(const Builder& b, const Stage& stage
   for (const std::vector<Fixity>* list : {&b.model.fixities, &stage.fixities})
     for (const Fixity& f : *list)
       for (std::size_t c = 0; c < 2; ++c)
-        if (f.code[c] == FixityCode::fixed) held[static_cast<std::size_t>(f.node)][c] = 1;
+        if (f.code[c] == FixityCode::fixed) held[f.node][c] = 1;
   return held;
 }
 
@@ -241,12 +240,11 @@ int hold_free_faces(Builder& b, const std::vector<const InitialStress*>& of_grou
   double largest = 0.0;
   std::vector<EdgeLoad> faces;
   for (const BoundaryEdge& edge : boundary_edges(b.model)) {
-    const InitialStress* initial = of_group[static_cast<std::size_t>(edge.group)];
+    const InitialStress* initial = of_group[edge.group];
     if (initial == nullptr) continue;
     std::array<bool, 2> holds{true, true};
     for (const int node : edge.nodes)
-      for (std::size_t c = 0; node >= 0 && c < 2; ++c)
-        holds[c] = holds[c] && held[static_cast<std::size_t>(node)][c] != 0;
+      for (std::size_t c = 0; node >= 0 && c < 2; ++c) holds[c] = holds[c] && held[node][c] != 0;
     const Vector2 ends[] = {b.model.mesh.x.col(edge.nodes[0]), b.model.mesh.x.col(edge.nodes[1])};
     const Vector2 along = (ends[1] - ends[0]).normalized(), out(along.y(), -along.x());
     EdgeLoad face{edge.group, edge.element, edge.edge, Vector2::Zero(), Vector2::Zero(), stage.where.line};
@@ -255,7 +253,7 @@ int hold_free_faces(Builder& b, const std::vector<const InitialStress*>& of_grou
       Vector2 traction(-initial->value[2] * vertical * out.x(), -vertical * out.y());
       largest = std::max(largest, vertical);
       for (int c = 0; c < 2; ++c)
-        if (holds[static_cast<std::size_t>(c)]) traction[c] = 0.0;
+        if (holds[c]) traction[c] = 0.0;
       face.normal[i] = -traction.dot(out);
       face.shear[i] = traction.dot(along);
     }
@@ -270,11 +268,10 @@ int hold_free_faces(Builder& b, const std::vector<const InitialStress*>& of_grou
 
 // The stress of a group, all of which lies in one layer.
 InitialStress stress_of(Builder& b, const CardView& card, int g) {
-  const Group& group = b.model.groups[static_cast<std::size_t>(g)];
+  const Group& group = b.model.groups[g];
   const Material& material = b.model.material_of(group);
   GroundLayer layer{b.layers.front().top, 0.0, material.unit_weight, 0.0};
-  if (!group.overlay)
-    layer = b.layers[static_cast<std::size_t>(layer_at(b.layers, middle_of_element(b, group, 0)))];
+  if (!group.overlay) layer = b.layers[layer_at(b.layers, middle_of_element(b, group, 0))];
   InitialStress initial;
   initial.group = g;
   initial.kind = InitialKind::geostatic;
@@ -304,7 +301,7 @@ void split_layers(Builder& b) {
   raise_to_level(b, card);
   const int groups = static_cast<int>(b.model.groups.size());
   for (int g = 0; b.problems.errors() == 0 && g < groups; ++g) {
-    const Group& group = b.model.groups[static_cast<std::size_t>(g)];
+    const Group& group = b.model.groups[g];
     if (is_ground(group) && !group.overlay && !is_born_later(b, group)) split_by_layers(b, g);
   }
 }

@@ -237,7 +237,7 @@ void add_removals(Builder& b) {
 
 // Elements of one group that are treated apart: a group of their own, of the same number.
 int piece_of(Builder& b, int from, const std::string& name) {
-  const Group& whole = b.model.groups[static_cast<std::size_t>(from)];
+  const Group& whole = b.model.groups[from];
   Group piece = whole;
   piece.name = (whole.name.empty() ? "" : whole.name + ", ") + name;
   piece.element_numbers.clear();
@@ -258,7 +258,7 @@ void copy_element(const Group& from, int element, Group& to) {
 void split_by_cards(Builder& b, int group, const std::vector<CardView>& cards,
                     const std::unordered_map<int, std::size_t>& card_of) {
   std::vector<int> keys;
-  for (const int number : b.model.groups[static_cast<std::size_t>(group)].element_numbers) {
+  for (const int number : b.model.groups[group].element_numbers) {
     const auto card = card_of.find(number);
     keys.push_back(card == card_of.end() ? -1 : static_cast<int>(card->second));
   }
@@ -275,27 +275,27 @@ void number_pieces(Builder& b) {
   pieces.insert(pieces.end(), b.layer_pieces.begin(), b.layer_pieces.end());
   std::sort(pieces.begin(), pieces.end());
   pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
-  for (const int piece : pieces) b.model.groups[static_cast<std::size_t>(piece)].number = ++largest;
+  for (const int piece : pieces) b.model.groups[piece].number = ++largest;
 }
 
 }  // namespace
 
 std::map<int, int> split_group(Builder& b, int group, const std::vector<int>& keys, const std::string& name) {
-  const Group whole = b.model.groups[static_cast<std::size_t>(group)];
+  const Group whole = b.model.groups[group];
   std::map<int, int> pieces;
   for (const int key : keys)
     if (key >= 0 && !pieces.contains(key))
       pieces[key] = piece_of(b, group, name + " " + std::to_string(key + 1));
   if (pieces.empty()) return pieces;
-  Group& rest = b.model.groups[static_cast<std::size_t>(group)];
+  Group& rest = b.model.groups[group];
   rest.element_numbers.clear();
   rest.element_lines.clear();
   rest.nodes.clear();
   for (int e = 0; e < whole.elements(); ++e) {
-    const int key = keys[static_cast<std::size_t>(e)];
+    const int key = keys[e];
     const int to = key < 0 ? group : pieces.at(key);
-    Group& now = b.model.groups[static_cast<std::size_t>(to)];
-    ElementPlace& place = b.element_place.at(whole.element_numbers[static_cast<std::size_t>(e)]);
+    Group& now = b.model.groups[to];
+    ElementPlace& place = b.element_place.at(whole.element_numbers[e]);
     place.group = to;
     place.element = now.elements();
     copy_element(whole, e, now);

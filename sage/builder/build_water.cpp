@@ -170,7 +170,7 @@ bool bears_water(const ElementEntry& entry) {
 // group: its place, -1 = all of the model.
 bool is_structure(const Builder& b, int group) {
   if (group < 0) return false;
-  const Group& own = b.model.groups[static_cast<std::size_t>(group)];
+  const Group& own = b.model.groups[group];
   return own.entry != nullptr && own.structure();
 }
 
@@ -248,7 +248,7 @@ void shut_in(Builder& b, Group& group, std::map<int, int>& twins) {
   const int from = group.material;
   auto twin = twins.find(from);
   if (twin == twins.end()) {
-    Material material = twin_of(b.model.materials[static_cast<std::size_t>(from)], b.model.units);
+    Material material = twin_of(b.model.materials[from], b.model.units);
     material.undrained = material.twin = true;
     material.law = make_law(material, b.model.units);
     twin = twins.emplace(from, static_cast<int>(b.model.materials.size())).first;
@@ -267,7 +267,7 @@ void read_undrained(Builder& b, const CardView& card, WaterCard water, std::map<
       if (b.model.groups[g].entry != nullptr && b.model.groups[g].solid()) all.push_back(static_cast<int>(g));
   }
   for (const int g : all) {
-    Group& group = b.model.groups[static_cast<std::size_t>(g)];
+    Group& group = b.model.groups[g];
     if (group.entry != nullptr && group.entry->has_pores()) {
       b.error("S366", card.where(),
               "group " + std::to_string(group.number) + " (" + group.element_name +
@@ -296,8 +296,8 @@ void check_undrained(Builder& b) {
       const bool begins = given.stage > shut.stage || (given.stage == shut.stage && given.stage > 0);
       if (begins && given.stage < until)
         b.error("S249", given.where,
-                "group " + std::to_string(b.model.groups[static_cast<std::size_t>(shut.group)].number) +
-                    " is undrained in stage " + std::to_string(given.stage + 1) +
+                "group " + std::to_string(b.model.groups[shut.group].number) + " is undrained in stage " +
+                    std::to_string(given.stage + 1) +
                     ": its pressure follows from the change of volume and can't be given as well");
     }
   }
@@ -306,8 +306,7 @@ void check_undrained(Builder& b) {
 // Of two cards of one stage about the same the last stands; a card that drains what was never shut in does nothing.
 void warn_of_water_cards(Builder& b) {
   const auto name = [&](int group) {
-    return group < 0 ? std::string("all solids")
-                     : "group " + std::to_string(b.model.groups[static_cast<std::size_t>(group)].number);
+    return group < 0 ? std::string("all solids") : "group " + std::to_string(b.model.groups[group].number);
   };
   const auto same = [&](const WaterCard& a, const WaterCard& c) {
     const bool structure = is_structure(b, a.group);
@@ -362,7 +361,7 @@ void list_nodes(const Model& model, const WaterCard& card, HeadRequest& request)
       element_coordinates(model.mesh, group, e, x);
       for (std::size_t i = 0; i < group.node_count(); ++i) {
         const int node = group.nodes_of(e)[i];
-        if (listed[static_cast<std::size_t>(node)]++ > 0) continue;
+        if (listed[node]++ > 0) continue;
         request.nodes.push_back(node);
         request.inside.emplace_back(x.leftCols(group.entry->corners).rowwise().mean());
       }
@@ -399,8 +398,7 @@ void take_heads(Builder& b, const StoredHeads& stored) {
   if (outside == 0) return;
   b.error("S250", stored.where,
           "heads of an earlier run: " + std::to_string(outside) + " node(s) lie outside the mesh of " +
-              request.file + ", the first is node " +
-              std::to_string(model.mesh.number[static_cast<std::size_t>(first)]) + " at (" +
+              request.file + ", the first is node " + std::to_string(model.mesh.number[first]) + " at (" +
               rounded_text(model.mesh.x(0, first), 6) + ", " + rounded_text(model.mesh.x(1, first), 6) + ")");
 }
 

@@ -89,7 +89,7 @@ void GroundOutline::gather(Builder& b) {
       int active = 0;
       const SolidEdge* own = nullptr;
       for (; end < edges.size() && edges[end].other == edges[i].other; ++end)
-        if (activity_.group[static_cast<std::size_t>(edges[end].group)]) ++active, own = &edges[end];
+        if (activity_.group[edges[end].group]) ++active, own = &edges[end];
       if (active == 1)
         sides_.push_back({own->reversed ? own->other : node, own->reversed ? node : own->other, own->group,
                           own->local, Push::none, 0});
@@ -109,13 +109,13 @@ void GroundOutline::push(const Stage& stage) {
   std::map<std::pair<int, int>, const EdgeLoad*> pressed;
   for (const EdgeLoad& load : stage.pressures) {
     if (load.normal.sum() <= 0.0) continue;
-    const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
-    const std::vector<int>& edge = group.element->edges()[static_cast<std::size_t>(load.edge)];
+    const Group& group = model_.groups[load.group];
+    const std::vector<int>& edge = group.element->edges()[load.edge];
     const int* nodes = group.nodes_of(load.element);
     pressed[{nodes[edge[0]], nodes[edge[1]]}] = &load;
   }
   for (GroundSide& side : sides_) {
-    const Group& group = model_.groups[static_cast<std::size_t>(side.group)];
+    const Group& group = model_.groups[side.group];
     if (!can_fail(model_.material_of(group))) continue;
     const auto from = moved.find(side.from), to = moved.find(side.to);
     if (from != moved.end() && to != moved.end()) {
@@ -168,19 +168,19 @@ struct NodeSpacing {
 
 // Length of a side divided by the degree of its element.
 double spacing_of(const Model& model, const GroundSide& side) {
-  const Group& group = model.groups[static_cast<std::size_t>(side.group)];
+  const Group& group = model.groups[side.group];
   const double length = (model.mesh.x.col(side.to) - model.mesh.x.col(side.from)).norm();
-  return length / static_cast<double>(group.element->edges()[static_cast<std::size_t>(side.local)].size() - 1);
+  return length / static_cast<double>(group.element->edges()[side.local].size() - 1);
 }
 
 NodeSpacing spacing_of(const Model& model, const Footing& footing) {
   double length = 0.0, mean = 0.0;
   bool locks = false;
   for (const GroundSide* side : footing.sides) {
-    const Group& group = model.groups[static_cast<std::size_t>(side->group)];
+    const Group& group = model.groups[side->group];
     length += (model.mesh.x.col(side->to) - model.mesh.x.col(side->from)).norm();
     mean += spacing_of(model, *side) / static_cast<double>(footing.sides.size());
-    const bool linear = group.element->edges()[static_cast<std::size_t>(side->local)].size() == 2;
+    const bool linear = group.element->edges()[side->local].size() == 2;
     locks = locks || (linear && group.element->traits().locks);
   }
   const double half = length / (footing.ends_before && footing.ends_behind ? 2.0 : 1.0);
@@ -193,7 +193,7 @@ NodeSpacing spacing_of(const Model& model, const Footing& footing) {
 }
 
 void warn_coarse(Builder& b, const Stage& stage, bool moved, const NodeSpacing& spacing) {
-  const std::string node = std::to_string(b.model.mesh.number[static_cast<std::size_t>(spacing.node)]);
+  const std::string node = std::to_string(b.model.mesh.number[spacing.node]);
   std::string message = "stage " + std::to_string(stage.number) +
                         ": the mesh is too coarse for a collapse load. Under the part of the side that is " +
                         (moved ? "moved" : "loaded") + " and ends at node " + node + ", nodes are " +

@@ -39,10 +39,9 @@ void check_unknowns(Builder& b, const Stage& stage, const Activity& activity) {
   for (std::size_t field = 1; field < b.model.unknowns.size(); ++field) {
     const auto idle = [&](const auto& card) {
       const int dof = activity.dof_map.of(card.node, card.field);
-      return card.field == static_cast<int>(field) && card.value != 0.0 && dof >= 0 &&
-             active[static_cast<std::size_t>(dof)] == 0;
+      return card.field == static_cast<int>(field) && card.value != 0.0 && dof >= 0 && active[dof] == 0;
     };
-    const auto number_of = [&](int node) { return b.model.mesh.number[static_cast<std::size_t>(node)]; };
+    const auto number_of = [&](int node) { return b.model.mesh.number[node]; };
     IdleCards values, loads;
     for (const FieldFixity& f : stage.field_fixities)
       if (idle(f) && f.code == FixityCode::fixed) add(values, f.line, number_of(f.node));
@@ -64,8 +63,8 @@ void check_inactive(Builder& b) {
   for (const Stage& stage : model.stages) {
     activity.enter(stage);
     const std::vector<char> active = active_nodes(model, activity);
-    const auto number_of = [&](int node) { return model.mesh.number[static_cast<std::size_t>(node)]; };
-    const auto idle_node = [&](int node) { return active[static_cast<std::size_t>(node)] == 0; };
+    const auto number_of = [&](int node) { return model.mesh.number[node]; };
+    const auto idle_node = [&](int node) { return active[node] == 0; };
     IdleCards loads, displacements, pressures;
     for (const NodalLoad& load : stage.loads)
       if (idle_node(load.node) && !load.force.isZero(0.0)) add(loads, load.line, number_of(load.node));
@@ -75,8 +74,7 @@ void check_inactive(Builder& b) {
     }
     for (const EdgeLoad& load : stage.pressures) {
       const auto group = static_cast<std::size_t>(load.group);
-      if (!activity.group[group])
-        add(pressures, load.line, model.groups[group].element_numbers[static_cast<std::size_t>(load.element)]);
+      if (!activity.group[group]) add(pressures, load.line, model.groups[group].element_numbers[load.element]);
     }
     for (std::size_t i = 0; i < model.reports.size(); ++i) {
       const Report& report = model.reports[i];

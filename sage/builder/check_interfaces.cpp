@@ -18,12 +18,12 @@ class EdgesOfSolids {
   explicit EdgesOfSolids(const Model& model) : of_interface_(static_cast<std::size_t>(model.mesh.nodes()), 0) {
     for (const Group& group : model.groups)
       if (group.interface())
-        for (const int node : group.nodes) of_interface_[static_cast<std::size_t>(node)] = 1;
+        for (const int node : group.nodes) of_interface_[node] = 1;
     for (const Group& group : model.groups) {
       if (!group.solid()) continue;
       for (int e = 0; e < group.elements(); ++e)
         for (const std::vector<int>& edge : group.element->edges())
-          add_edge(group.nodes_of(e), edge, group.element_numbers[static_cast<std::size_t>(e)]);
+          add_edge(group.nodes_of(e), edge, group.element_numbers[e]);
     }
   }
 
@@ -52,8 +52,7 @@ class EdgesOfSolids {
     add_piece(from, last, number);
   }
   void add_piece(int a, int b, int number) {
-    if (of_interface_[static_cast<std::size_t>(a)] && of_interface_[static_cast<std::size_t>(b)])
-      solid_.try_emplace(key(a, b), number);
+    if (of_interface_[a] && of_interface_[b]) solid_.try_emplace(key(a, b), number);
   }
 
   std::vector<char> of_interface_;  // of each node
@@ -93,8 +92,8 @@ class SideCheck {
       const int* n = group.nodes_of(e);
       const Side bottom{solids_.left_of(n[0], n[1]), solids_.left_of(n[1], n[0])};
       const Side top{solids_.left_of(n[3], n[2]), solids_.left_of(n[2], n[3])};
-      const int line = group.element_lines[static_cast<std::size_t>(e)];
-      const int number = group.element_numbers[static_cast<std::size_t>(e)];
+      const int line = group.element_lines[e];
+      const int number = group.element_numbers[e];
       if (!bottom.touched() && !top.touched() && ++alone == 1) first_alone = number;
       const int nodes = static_cast<int>(group.node_count());
       const std::string wrong = trouble(bottom, top, *group.entry);

@@ -17,7 +17,7 @@ constexpr double kTogether = 1e-6;  // of the shortest edge there: closer nodes 
 constexpr int kListed = 5;
 
 std::string number_of(const Model& model, int node) {
-  return std::to_string(model.mesh.number[static_cast<std::size_t>(node)]);
+  return std::to_string(model.mesh.number[node]);
 }
 
 // The first few of a list, then how many more there are.
@@ -44,7 +44,7 @@ std::vector<double> shortest_edges(const Model& model) {
         const double length = (model.mesh.x.col(nodes[edge[0]]) - model.mesh.x.col(nodes[edge[1]])).norm() /
                               static_cast<double>(edge.size() - 1);
         for (int local : edge) {
-          double& s = shortest[static_cast<std::size_t>(nodes[local])];
+          double& s = shortest[nodes[local]];
           s = std::min(s, length);
         }
       }
@@ -56,7 +56,7 @@ std::vector<char> interface_nodes(const Model& model) {
   std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups)
     if (group.interface())
-      for (int node : group.nodes) flags[static_cast<std::size_t>(node)] = 1;
+      for (int node : group.nodes) flags[node] = 1;
   return flags;
 }
 
@@ -87,7 +87,7 @@ void warn_coincident(Builder& b, const std::vector<double>& shortest) {
   std::vector<std::pair<double, int>> order;
   double widest = 0.0;
   for (int n = 0; n < mesh.nodes(); ++n) {
-    const double s = shortest[static_cast<std::size_t>(n)];
+    const double s = shortest[n];
     if (!std::isfinite(s)) continue;
     order.emplace_back(slant.dot(mesh.x.col(n)), n);
     widest = std::max(widest, kTogether * s);
@@ -128,13 +128,13 @@ struct EdgeUse {
 };
 
 const std::vector<int>& local_nodes(const Model& model, const EdgeUse& use) {
-  const Element& element = *model.groups[static_cast<std::size_t>(use.group)].element;
-  return element.edges()[static_cast<std::size_t>(use.local)];
+  const Element& element = *model.groups[use.group].element;
+  return element.edges()[use.local];
 }
 
 std::string element_of(const Model& model, const EdgeUse& use) {
-  const Group& group = model.groups[static_cast<std::size_t>(use.group)];
-  return "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(use.element)]);
+  const Group& group = model.groups[use.group];
+  return "element " + std::to_string(group.element_numbers[use.element]);
 }
 
 std::string ends_of(const Model& model, const EdgeUse& use) {
@@ -158,7 +158,7 @@ std::vector<EdgeUse> outline_edges(Builder& b, Examples& hanging) {
         const EdgeUse longer = use(more ? k : i), shorter = use(more ? i : k);
         const std::vector<int>& nodes = local_nodes(model, longer);
         if (nodes.size() == local_nodes(model, shorter).size()) continue;
-        const int* of_element = model.groups[static_cast<std::size_t>(longer.group)].nodes_of(longer.element);
+        const int* of_element = model.groups[longer.group].nodes_of(longer.element);
         hanging.add("node " + number_of(model, of_element[nodes[2]]) + " of " + element_of(model, longer) +
                     " on an edge of " + element_of(model, shorter) + ends_of(model, shorter));
       }
@@ -175,7 +175,7 @@ void warn_hanging(Builder& b, const std::vector<double>& shortest) {
   std::vector<std::pair<double, int>> order;  // the outline's nodes by x
   for (const EdgeUse& edge : edges)
     for (int local : local_nodes(model, edge)) {
-      const int node = model.groups[static_cast<std::size_t>(edge.group)].nodes_of(edge.element)[local];
+      const int node = model.groups[edge.group].nodes_of(edge.element)[local];
       order.emplace_back(model.mesh.x(0, node), node);
     }
   std::sort(order.begin(), order.end());
@@ -194,7 +194,7 @@ void warn_hanging(Builder& b, const std::vector<double>& shortest) {
       const Vector2 d = x(node) - from;
       const double t = d.dot(along) / (length * length);
       const double off = std::abs(d.x() * along.y() - d.y() * along.x()) / length;
-      const double near = kTogether * std::min(length, shortest[static_cast<std::size_t>(node)]);
+      const double near = kTogether * std::min(length, shortest[node]);
       if (off > near || t * length <= near || (1.0 - t) * length <= near) continue;
       hanging.add("node " + number_of(model, node) + " on an edge of " + element_of(model, edge) +
                   ends_of(model, edge));
@@ -220,9 +220,8 @@ void warn_structures_on_sides(Builder& b) {
         const EdgeUse use{first, last, edge.group, edge.element, edge.local};
         const std::size_t nodes = local_nodes(model, use).size();
         if (nodes == group.node_count()) continue;
-        found.add("element " + std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
-                  group.element_name + ") on a side of " + element_of(model, use) + " with " +
-                  std::to_string(nodes) + " nodes");
+        found.add("element " + std::to_string(group.element_numbers[e]) + " (" + group.element_name +
+                  ") on a side of " + element_of(model, use) + " with " + std::to_string(nodes) + " nodes");
         break;
       }
     }
@@ -239,7 +238,7 @@ std::vector<char> solid_nodes(const Model& model, Counts counts) {
   std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     if (model.groups[g].solid() && counts(g))
-      for (int node : model.groups[g].nodes) flags[static_cast<std::size_t>(node)] = 1;
+      for (int node : model.groups[g].nodes) flags[node] = 1;
   return flags;
 }
 
@@ -268,8 +267,7 @@ void warn_bare_joints(Builder& b) {
           // Nodes that no solid ever has are a body of the deck's own, which its loads may hold.
           if (ever[n] && !now[n] && !held) bare.push_back(node);
         }
-        if (bare.size() > before)
-          elements.add(std::to_string(group.element_numbers[static_cast<std::size_t>(e)]));
+        if (bare.size() > before) elements.add(std::to_string(group.element_numbers[e]));
       }
       if (bare.empty()) continue;
       reported[g] = 1;

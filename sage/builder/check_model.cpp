@@ -44,7 +44,7 @@ void check_shapes(Builder& b) {
   Eigen::Matrix2Xd x;
   std::vector<double> geometry;
   for (const Group& group : b.model.groups) {
-    geometry.resize(static_cast<std::size_t>(group.element->traits().geometry_size()));
+    geometry.resize(group.element->traits().geometry_size());
     std::string caution;
     int cautioned = 0;
     for (int e = 0; e < group.elements(); ++e) {
@@ -94,10 +94,10 @@ std::vector<char> moved_nodes(const Model& model) {
   std::vector<char> moved(static_cast<std::size_t>(model.mesh.nodes()), 1);
   for (const Group& group : model.groups)
     if (!group.entry->moves())
-      for (const int node : group.nodes) moved[static_cast<std::size_t>(node)] = 0;
+      for (const int node : group.nodes) moved[node] = 0;
   for (const Group& group : model.groups)
     if (group.entry->moves())
-      for (const int node : group.nodes) moved[static_cast<std::size_t>(node)] = 1;
+      for (const int node : group.nodes) moved[node] = 1;
   return moved;
 }
 
@@ -135,14 +135,14 @@ void fix_axis(Builder& b) {
   const double reach = model.mesh.x.row(0).cwiseAbs().maxCoeff();
   std::vector<char> held(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Fixity& f : model.fixities)
-    if (f.code[0] == FixityCode::fixed) held[static_cast<std::size_t>(f.node)] = 1;
+    if (f.code[0] == FixityCode::fixed) held[f.node] = 1;
   const std::vector<char> moved = moved_nodes(model);
   int added = 0;
   for (int node = 0; node < model.mesh.nodes(); ++node) {
     const double r = model.mesh.x(0, node);
     if (r < -1e-12 * reach) continue;  // its elements are refused
-    if (std::abs(r) > 1e-12 * reach || held[static_cast<std::size_t>(node)]) continue;
-    if (!moved[static_cast<std::size_t>(node)]) continue;
+    if (std::abs(r) > 1e-12 * reach || held[node]) continue;
+    if (!moved[node]) continue;
     Fixity fixity;
     fixity.node = node;
     fixity.code[0] = FixityCode::fixed;
@@ -159,27 +159,26 @@ void note_unused_nodes(Builder& b) {
   const Model& model = b.model;
   std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups)
-    for (int node : group.nodes) used[static_cast<std::size_t>(node)] = 1;
+    for (int node : group.nodes) used[node] = 1;
   const auto unused = std::count(used.begin(), used.end(), 0);
   if (unused == 0) return;
   const auto first = std::find(used.begin(), used.end(), 0) - used.begin();
   b.note("S329", b.at_line(0),
          std::to_string(unused) + " node(s) belong to no element and are ignored, the first is node " +
-             std::to_string(model.mesh.number[static_cast<std::size_t>(first)]));
+             std::to_string(model.mesh.number[first]));
   const auto refuse = [&](const Fixity& f) {
     const bool moved = f.value[0] != 0.0 || f.value[1] != 0.0;
-    if (moved && !used[static_cast<std::size_t>(f.node)])
+    if (moved && !used[f.node])
       b.error("S330", b.at_line(f.line),
-              "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(f.node)]) +
-                  " is displaced but belongs to no element");
+              "node " + std::to_string(model.mesh.number[f.node]) + " is displaced but belongs to no element");
   };
   for (const Stage& stage : model.stages) {
     for (const Fixity& f : stage.fixities) refuse(f);
     for (const NodalLoad& load : stage.loads)
-      if (!used[static_cast<std::size_t>(load.node)])
-        b.error("S330", b.at_line(load.line),
-                "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
-                    " is loaded but belongs to no element");
+      if (!used[load.node])
+        b.error(
+            "S330", b.at_line(load.line),
+            "node " + std::to_string(model.mesh.number[load.node]) + " is loaded but belongs to no element");
   }
 }
 
@@ -189,8 +188,7 @@ void note_unused_materials(Builder& b) {
   std::set<int> used;
   for (const Group& group : b.model.groups) {
     used.insert(b.model.material_of(group).number);
-    if (group.second_material >= 0)
-      used.insert(b.model.materials[static_cast<std::size_t>(group.second_material)].number);
+    if (group.second_material >= 0) used.insert(b.model.materials[group.second_material].number);
   }
   for (const Stage& stage : b.model.stages)
     for (const InitialStress& initial : stage.initials)
@@ -257,7 +255,7 @@ bool turns(const Model& model, const std::vector<int>& part, int p) {
   const DofMap map(model);
   for (std::size_t field = 1; field < model.unknowns.size(); ++field)
     for (int node = 0; model.unknowns[field].turns && node < model.mesh.nodes(); ++node)
-      if (part[static_cast<std::size_t>(node)] == p && map.of(node, static_cast<int>(field)) >= 0) return true;
+      if (part[node] == p && map.of(node, static_cast<int>(field)) >= 0) return true;
   return false;
 }
 

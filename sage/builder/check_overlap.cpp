@@ -91,9 +91,7 @@ class EdgeSearch {
       first;  // the first that the deck's order has, its elder before it
 
  private:
-  bool overlay(const SolidEdge& edge) const {
-    return b_.model.groups[static_cast<std::size_t>(edge.group)].overlay;
-  }
+  bool overlay(const SolidEdge& edge) const { return b_.model.groups[edge.group].overlay; }
 
   // All edges between two corners.
   void take(std::span<const SolidEdge> edges) {
@@ -128,7 +126,7 @@ class EdgeSearch {
 class Outline {
  public:
   Outline(const Model& model, const Solid& solid) {
-    const Group& group = model.groups[static_cast<std::size_t>(solid.group)];
+    const Group& group = model.groups[solid.group];
     const int* nodes = group.nodes_of(solid.element);
     const std::vector<std::vector<int>>& edges = group.element->edges();
     shape_.corners = static_cast<int>(edges.size());
@@ -256,9 +254,9 @@ class OverlapSearch {
     std::size_t solids = 0;
     for (const Group& group : model.groups) solids += group.solid() ? group.element_numbers.size() : 0;
     for (const SolidEdge& edge : bare) {
-      std::vector<char>& of_group = bare_[static_cast<std::size_t>(edge.group)];
-      of_group.resize(model.groups[static_cast<std::size_t>(edge.group)].element_numbers.size(), 0);
-      of_group[static_cast<std::size_t>(edge.element)] = 1;
+      std::vector<char>& of_group = bare_[edge.group];
+      of_group.resize(model.groups[edge.group].element_numbers.size(), 0);
+      of_group[edge.element] = 1;
     }
     lay_grid(solids);
   }
@@ -297,16 +295,14 @@ class OverlapSearch {
     const Vector2 size = x.rowwise().maxCoeff() - low_;
     const double cells = static_cast<double>(solids) / kElementsPerCell + 1.0;
     const double step = std::max(std::sqrt(size.x() * size.y() / cells), size.maxCoeff() / cells);
+    for (Eigen::Index c = 0; c < 2; ++c) count_[c] = std::max<std::int64_t>(1, std::llround(size[c] / step));
     for (Eigen::Index c = 0; c < 2; ++c)
-      count_[static_cast<std::size_t>(c)] = std::max<std::int64_t>(1, std::llround(size[c] / step));
-    for (Eigen::Index c = 0; c < 2; ++c)
-      scale_[c] = size[c] > 0.0 ? static_cast<double>(count_[static_cast<std::size_t>(c)]) / size[c] : 0.0;
-    marked_.assign(static_cast<std::size_t>(count_[0] * count_[1]), 0);
+      scale_[c] = size[c] > 0.0 ? static_cast<double>(count_[c]) / size[c] : 0.0;
+    marked_.assign(count_[0] * count_[1], 0);
   }
 
   std::int64_t place(double at, Eigen::Index c) const {
-    return std::min(static_cast<std::int64_t>((at - low_[c]) * scale_[c]),
-                    count_[static_cast<std::size_t>(c)] - 1);
+    return std::min(static_cast<std::int64_t>((at - low_[c]) * scale_[c]), count_[c] - 1);
   }
   Cells cells_of(const Box& box) const {
     return {place(box.low.x(), 0), place(box.high.x(), 0), place(box.low.y(), 1), place(box.high.y(), 1)};
@@ -330,7 +326,7 @@ class OverlapSearch {
   }
 
   bool is_bare(std::size_t group, int element) const {
-    return !bare_[group].empty() && bare_[group][static_cast<std::size_t>(element)] != 0;
+    return !bare_[group].empty() && bare_[group][element] != 0;
   }
 
   // The cells in which there is something to compare; all, where that would be most of them.
@@ -342,7 +338,7 @@ class OverlapSearch {
         if (!is_bare(g, e)) continue;
         const Cells cells = cells_of(box_of(model_.groups[g].nodes_of(e), model_.groups[g].node_count()));
         written += static_cast<std::size_t>(cells.count());
-        for_cells(cells, [&](std::int64_t cell) { marked_[static_cast<std::size_t>(cell)] = 1; });
+        for_cells(cells, [&](std::int64_t cell) { marked_[cell] = 1; });
       }
     if (written > most) marked_.assign(marked_.size(), 1);
   }
@@ -360,7 +356,7 @@ class OverlapSearch {
           large_.push_back({-1, solid, box});
         else
           for_cells(cells, [&](std::int64_t cell) {
-            if (marked_[static_cast<std::size_t>(cell)]) entries_.push_back({cell, solid, box});
+            if (marked_[cell]) entries_.push_back({cell, solid, box});
           });
       }
     }
@@ -408,8 +404,7 @@ class OverlapSearch {
 
   // Both lie on the same hand of a common edge, of which there is a message, or on either hand, as neighbours do.
   bool share_an_edge(const Solid& a, const Solid& b) const {
-    const Group &g = model_.groups[static_cast<std::size_t>(a.group)],
-                &h = model_.groups[static_cast<std::size_t>(b.group)];
+    const Group &g = model_.groups[a.group], &h = model_.groups[b.group];
     const int *n = g.nodes_of(a.element), *m = h.nodes_of(b.element);
     for (const std::vector<int>& edge : g.element->edges())
       for (const std::vector<int>& other : h.element->edges())
@@ -430,12 +425,12 @@ class OverlapSearch {
 // ---- Messages
 
 int line_of(const Model& model, int group, int element) {
-  return model.groups[static_cast<std::size_t>(group)].element_lines[static_cast<std::size_t>(element)];
+  return model.groups[group].element_lines[element];
 }
 
 std::string number_of(const Model& model, int group, int element) {
-  const Group& of = model.groups[static_cast<std::size_t>(group)];
-  return std::to_string(of.element_numbers[static_cast<std::size_t>(element)]);
+  const Group& of = model.groups[group];
+  return std::to_string(of.element_numbers[element]);
 }
 
 std::string with_line(const Model& model, const Solid& solid) {
@@ -477,7 +472,7 @@ void refuse_water_in_soil(Builder& b) {
       if (on_solid(group, group.nodes_of(e))) {
         b.error("S326", group.where,
                 "group " + std::to_string(group.number) + ": water flows through element " +
-                    std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) +
+                    std::to_string(group.element_numbers[e]) +
                     " on the nodes of a solid (a group that lies on others on purpose says so: overlay 1)");
         break;
       }

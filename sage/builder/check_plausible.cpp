@@ -55,7 +55,7 @@ Size size_of(const Builder& b) {
 }
 
 void check_initial(Builder& b, const InitialStress& initial) {
-  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  const Group& group = b.model.groups[initial.group];
   const bool solid = group.solid();
   const double modulus = stiffness(b, b.model.material_of(group));
   const std::string name = "group " + std::to_string(group.number) + ": ";
@@ -114,8 +114,8 @@ void check_slender(Builder& b) {
       ++found;
       if (longest <= worst * shortest) continue;
       worst = longest / shortest;
-      number = group.element_numbers[static_cast<std::size_t>(e)];
-      line = group.element_lines[static_cast<std::size_t>(e)];
+      number = group.element_numbers[e];
+      line = group.element_lines[e];
     }
   }
   if (found > 0)
@@ -202,8 +202,7 @@ void check_fixities(Builder& b, const Stage& stage, const Activity& before, cons
           held_here.count(DofMap::displacement(f.node, component)) == 0) {
         last_line = f.line;
         b.note("S309", b.at_line(f.line),
-               "code -1 releases node " +
-                   std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
+               "code -1 releases node " + std::to_string(b.model.mesh.number[f.node]) +
                    (c == 0 ? " in x" : " in y") + ", which nothing held");
       }
     }
@@ -224,7 +223,7 @@ void check_loads(Builder& b, const Stage& stage, const Size& size) {
   }
   for (const EdgeLoad& load : stage.pressures) {
     if (load.line == last_line) continue;
-    const Group& group = b.model.groups[static_cast<std::size_t>(load.group)];
+    const Group& group = b.model.groups[load.group];
     const double largest = std::max(load.normal.cwiseAbs().maxCoeff(), load.shear.cwiseAbs().maxCoeff());
     if (size.stiffness > 0.0 && largest > size.stiffness) {
       b.warning("S308", b.at_line(load.line),
@@ -251,8 +250,8 @@ void check_inner_edges(Builder& b, const Stage& stage, const Activity& activity)
   std::map<mesh::EdgeKey, int> uses;
   std::vector<char> loaded(static_cast<std::size_t>(b.model.mesh.nodes()), 0);
   const auto edge_of = [&](const EdgeLoad& load) {
-    const Group& group = b.model.groups[static_cast<std::size_t>(load.group)];
-    return ends(group, load.element, group.element->edges()[static_cast<std::size_t>(load.edge)]);
+    const Group& group = b.model.groups[load.group];
+    return ends(group, load.element, group.element->edges()[load.edge]);
   };
   for (const EdgeLoad& load : stage.pressures) {
     const mesh::EdgeKey key = edge_of(load);
@@ -369,7 +368,7 @@ void check_twice_initial(Builder& b, const std::vector<InitialStress>& initials)
     const auto [first, added] = lines.try_emplace(initial.group, initial.where.line);
     if (added || first->second == initial.where.line) continue;
     b.warning("S315", initial.where,
-              "group " + std::to_string(b.model.groups[static_cast<std::size_t>(initial.group)].number) +
+              "group " + std::to_string(b.model.groups[initial.group].number) +
                   " got an initial stress in line " + std::to_string(first->second) +
                   " already: this card replaces it");
     first->second = initial.where.line;

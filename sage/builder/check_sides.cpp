@@ -25,7 +25,7 @@ std::array<Edges, kSides> edges_at(const Model& model, const std::array<double, 
   for (int n = 0; n < model.mesh.nodes(); ++n)
     for (std::size_t s = 0; s < kSides; ++s)
       if (std::abs(model.mesh.x(static_cast<Eigen::Index>(s / 2), n) - places[s]) <= reach)
-        sides[static_cast<std::size_t>(n)] |= static_cast<unsigned char>(1U << s);
+        sides[n] |= static_cast<unsigned char>(1U << s);
   std::array<std::map<std::pair<int, int>, std::vector<int>>, kSides> directed;
   for (const Group& group : model.groups) {
     if (!group.solid()) continue;
@@ -34,7 +34,7 @@ std::array<Edges, kSides> edges_at(const Model& model, const std::array<double, 
       for (const std::vector<int>& edge : edges) {
         const int* nodes = group.nodes_of(e);
         unsigned common = (1U << kSides) - 1U;
-        for (const int local : edge) common &= sides[static_cast<std::size_t>(nodes[local])];
+        for (const int local : edge) common &= sides[nodes[local]];
         if (common == 0) continue;
         std::vector<int> list;
         for (const int local : edge) list.push_back(nodes[local]);
@@ -58,11 +58,11 @@ struct Deeds {
     take(model.fixities, c);
     for (const Stage& stage : model.stages) {
       take(stage.fixities, c);
-      for (const NodalLoad& load : stage.loads) loaded[static_cast<std::size_t>(load.node)] = 1;
+      for (const NodalLoad& load : stage.loads) loaded[load.node] = 1;
       for (const EdgeLoad& load : stage.pressures) {
-        const Group& group = model.groups[static_cast<std::size_t>(load.group)];
-        for (const int local : group.element->edges()[static_cast<std::size_t>(load.edge)])
-          loaded[static_cast<std::size_t>(group.nodes_of(load.element)[local])] = 1;
+        const Group& group = model.groups[load.group];
+        for (const int local : group.element->edges()[load.edge])
+          loaded[group.nodes_of(load.element)[local]] = 1;
       }
     }
   }
@@ -70,17 +70,13 @@ struct Deeds {
   void take(const std::vector<Fixity>& list, std::size_t c) {
     for (const Fixity& f : list) {
       if (f.code[c] != FixityCode::fixed) continue;
-      held[static_cast<std::size_t>(f.node)] = 1;
-      if (f.value[c] != 0.0) moved[static_cast<std::size_t>(f.node)] = 1;
+      held[f.node] = 1;
+      if (f.value[c] != 0.0) moved[f.node] = 1;
     }
   }
-  bool supports(int node) const {
-    return held[static_cast<std::size_t>(node)] && !moved[static_cast<std::size_t>(node)];
-  }
+  bool supports(int node) const { return held[node] && !moved[node]; }
   // Left to itself: neither held nor loaded.
-  bool leaves(int node) const {
-    return !held[static_cast<std::size_t>(node)] && !loaded[static_cast<std::size_t>(node)];
-  }
+  bool leaves(int node) const { return !held[node] && !loaded[node]; }
 };
 
 // Parts of a straight side that hang together, as lists of edges.
@@ -89,10 +85,9 @@ std::vector<std::vector<std::vector<int>>> connected(const std::vector<std::vect
   Joined joined(edges.size());
   const auto count = static_cast<int>(edges.size());
   for (int i = 0; i < count; ++i)
-    for (const int node : edges[static_cast<std::size_t>(i)])
-      joined.join(i, owner.try_emplace(node, i).first->second);
+    for (const int node : edges[i]) joined.join(i, owner.try_emplace(node, i).first->second);
   std::map<int, std::vector<std::vector<int>>> parts;
-  for (int i = 0; i < count; ++i) parts[joined.set_of(i)].push_back(edges[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < count; ++i) parts[joined.set_of(i)].push_back(edges[i]);
   std::vector<std::vector<std::vector<int>>> list;
   for (auto& [first, part] : parts) list.push_back(std::move(part));
   return list;
@@ -126,8 +121,7 @@ void note_partly_held(Builder& b, const std::vector<std::vector<int>>& part, std
          "the straight side " + axis + " = " + rounded_text(place) +
              " is held in part: " + std::to_string(held.size()) + " nodes held along " + axis + ", " +
              std::to_string(left.size()) + " free, the first is node " +
-             std::to_string(b.model.mesh.number[static_cast<std::size_t>(*left.begin())]) +
-             "; a line of symmetry is held all along");
+             std::to_string(b.model.mesh.number[*left.begin()]) + "; a line of symmetry is held all along");
 }
 
 }  // namespace

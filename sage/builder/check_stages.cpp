@@ -14,7 +14,7 @@ namespace sage::builder {
 namespace {
 
 std::string node_name(const Builder& b, int node) {
-  return "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]);
+  return "node " + std::to_string(b.model.mesh.number[node]);
 }
 
 // A card's word on one unknown of one node.
@@ -70,7 +70,7 @@ class Axis {
       : mesh_(b.model.mesh), reach_(1e-12 * b.model.mesh.x.row(0).cwiseAbs().maxCoeff()) {}
   bool holds(int node) const { return std::abs(mesh_.x(0, node)) <= reach_; }
   bool holds(const Group& group, const EdgeLoad& load) const {
-    const std::vector<int>& edge = group.element->edges()[static_cast<std::size_t>(load.edge)];
+    const std::vector<int>& edge = group.element->edges()[load.edge];
     const int* nodes = group.nodes_of(load.element);
     return holds(nodes[edge[0]]) && holds(nodes[edge[1]]);
   }
@@ -100,7 +100,7 @@ void check_axis(Builder& b, const Stage& stage) {
                   " has no effect: it acts on the axis r = 0, where u_r = 0");
   }
   for (const EdgeLoad& load : stage.pressures) {
-    const Group& group = b.model.groups[static_cast<std::size_t>(load.group)];
+    const Group& group = b.model.groups[load.group];
     if (load.line == last_line || !axis.holds(group, load)) continue;
     last_line = load.line;
     b.warning("S321", b.at_line(load.line),

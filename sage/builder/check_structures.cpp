@@ -17,15 +17,15 @@ namespace sage::builder {
 namespace {
 
 std::string node_number(const Model& model, int node) {
-  return std::to_string(model.mesh.number[static_cast<std::size_t>(node)]);
+  return std::to_string(model.mesh.number[node]);
 }
 
 std::string element_number(const Group& group, int element) {
-  return std::to_string(group.element_numbers[static_cast<std::size_t>(element)]);
+  return std::to_string(group.element_numbers[element]);
 }
 
 int line_of(const Group& group, int element) {
-  return group.element_lines[static_cast<std::size_t>(element)];
+  return group.element_lines[element];
 }
 
 // Groups that are there in one and the same stage.
@@ -34,8 +34,8 @@ class Lives {
   explicit Lives(const Model& model)
       : from_(model.groups.size(), 0), to_(model.groups.size(), static_cast<int>(model.stages.size())) {
     for (std::size_t s = 0; s < model.stages.size(); ++s) {
-      for (const int g : model.stages[s].births) from_[static_cast<std::size_t>(g)] = static_cast<int>(s);
-      for (const int g : model.stages[s].deaths) to_[static_cast<std::size_t>(g)] = static_cast<int>(s);
+      for (const int g : model.stages[s].births) from_[g] = static_cast<int>(s);
+      for (const int g : model.stages[s].deaths) to_[g] = static_cast<int>(s);
     }
   }
   bool meet(std::size_t a, std::size_t b) const {
@@ -251,7 +251,7 @@ std::map<int, Hold> holds_of(const Model& model, const Activity& activity) {
   const auto active = [&](std::size_t g) { return activity.group[g] != 0; };
   const std::vector<int> parts =
       connected_parts(model, [&](std::size_t g, int) { return active(g) && model.groups[g].structure(); });
-  const auto part_of = [&](int node) { return parts[static_cast<std::size_t>(node)]; };
+  const auto part_of = [&](int node) { return parts[node]; };
   std::map<int, Hold> holds;
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     if (const Group& group = model.groups[g]; active(g) && group.structure())
@@ -319,8 +319,7 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
   std::vector<int> dofs;
   const auto rotations = [&](const Group& group, int e) {
     map.list(group, e, dofs);
-    std::erase_if(dofs,
-                  [&](int dof) { return !model.unknowns[static_cast<std::size_t>(map.at(dof).field)].turns; });
+    std::erase_if(dofs, [&](int dof) { return !model.unknowns[map.at(dof).field].turns; });
   };
   const auto each = [&](const auto& act) {
     for (std::size_t g = 0; g < model.groups.size(); ++g)
@@ -335,7 +334,7 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
   std::vector<char> structure(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups)
     if (group.structure())
-      for (const int node : group.nodes) structure[static_cast<std::size_t>(node)] = 1;
+      for (const int node : group.nodes) structure[node] = 1;
   std::map<int, Turning> found;
   std::map<int, std::set<int>> parts_at;  // of each node; -1: of what has no rotation
   each([&](std::size_t g, int e) {
@@ -346,13 +345,11 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
     const int part = dofs.empty() ? -1 : parts.set_of(dofs.front());
     if (part >= 0) {
       Turning& turning = found.try_emplace(part, Turning{g, e}).first->second;
-      for (const int dof : dofs)
-        turning.held = turning.held || activity.held[static_cast<std::size_t>(dof)] != 0;
+      for (const int dof : dofs) turning.held = turning.held || activity.held[dof] != 0;
       turning.nodes.insert(group.nodes_of(e), group.nodes_of(e) + group.node_count());
     }
     for (std::size_t i = 0; i < group.node_count(); ++i)
-      if (const int node = group.nodes_of(e)[i]; structure[static_cast<std::size_t>(node)])
-        parts_at[node].insert(part);
+      if (const int node = group.nodes_of(e)[i]; structure[node]) parts_at[node].insert(part);
   });
   for (const auto& [part, turning] : found) {
     std::vector<int> hangs;
@@ -434,7 +431,7 @@ void check_strips(Builder& b) {
 
 // Prestress that the law can't carry: a tension-only anchor that is pushed, a force beyond the strength.
 void check_prestress(Builder& b, const InitialStress& initial) {
-  const Group& group = b.model.groups[static_cast<std::size_t>(initial.group)];
+  const Group& group = b.model.groups[initial.group];
   const bool lock_off = initial.kind == InitialKind::lock_off;
   if (!group.structure() || (initial.kind != InitialKind::uniform && !lock_off)) return;
   const double share = lock_off ? 1.0 / spacing_of(b.model.material_of(group).law_ref()) : 1.0;
@@ -442,7 +439,7 @@ void check_prestress(Builder& b, const InitialStress& initial) {
   const bool carried = std::visit(
       [&]<int N>(const Law<N>* law) {
         Vector<N> sigma = Vector<N>::Zero();
-        for (int i = 0; i < N; ++i) sigma[i] = 0.0 - share * initial.value[static_cast<std::size_t>(i)];
+        for (int i = 0; i < N; ++i) sigma[i] = 0.0 - share * initial.value[i];
         std::vector<double> history = initial_values(law->traits().history);
         return law->initialise(sigma, history);
       },

@@ -50,7 +50,7 @@ std::vector<bool> moving_nodes(const Model& model) {
   std::vector<bool> moves(static_cast<std::size_t>(model.mesh.nodes()), false);
   for (const Group& group : model.groups)
     if (!group.flow())
-      for (const int node : group.nodes) moves[static_cast<std::size_t>(node)] = true;
+      for (const int node : group.nodes) moves[node] = true;
   return moves;
 }
 
@@ -59,9 +59,9 @@ void warn_of_displacements(Builder& b, const DofMap& map, const std::vector<bool
                            const std::vector<Fixity>& fixities) {
   const int head = find_unknown(b.model.unknowns, "head");
   for (const Fixity& fixity : fixities)
-    if (map.of(fixity.node, head) >= 0 && !moves[static_cast<std::size_t>(fixity.node)])
+    if (map.of(fixity.node, head) >= 0 && !moves[fixity.node])
       b.warning("S332", {b.model.file, fixity.line, 0, 0},
-                "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(fixity.node)]) +
+                "node " + std::to_string(b.model.mesh.number[fixity.node]) +
                     " has a head and no displacement that the card could hold; a card for heads names them "
                     "(head)");
 }
@@ -90,8 +90,8 @@ void warn_of_open_edges(Builder& b, const Activity& activity, const std::vector<
     const WaterCard* const own = water.card(static_cast<std::size_t>(edge.group));
     if (own == nullptr || own->kind != WaterKind::line || own->action != WaterAction::none || edge.on_structure)
       continue;
-    const Group& group = b.model.groups[static_cast<std::size_t>(edge.group)];
-    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const Group& group = b.model.groups[edge.group];
+    const std::vector<int>& local = group.element->edges()[edge.edge];
     bool below = true, held = true;
     for (const int i : {local[0], local[1]}) {
       const int node = group.nodes_of(edge.element)[i];
@@ -106,11 +106,11 @@ void warn_of_open_edges(Builder& b, const Activity& activity, const std::vector<
     }
   }
   if (edges == 0) return;
-  const Group& group = b.model.groups[static_cast<std::size_t>(first->group)];
+  const Group& group = b.model.groups[first->group];
   b.warning("S339", card->where,
             "stage " + std::to_string(stage.number) + ": the phreatic line lies above " +
                 std::to_string(edges) + " free edge(s), first of element " +
-                std::to_string(group.element_numbers[static_cast<std::size_t>(first->element)]) +
+                std::to_string(group.element_numbers[first->element]) +
                 ", and by action 1 no water stands there: nothing balances the pressure");
 }
 
@@ -123,14 +123,14 @@ class OnTheGround {
       if (groups[g] && model.groups[g].structure()) loads[g] = spread_loads(model, stage, g);
     Eigen::Matrix2Xd x;
     for (const BesideStructure& one : structures_beside_water(model, stage, groups)) {
-      const Group& group = model.groups[static_cast<std::size_t>(one.group)];
+      const Group& group = model.groups[one.group];
       element_coordinates(model.mesh, group, one.element, x);
       const Vector2 along = x.col(1) - x.col(0);
       const bool ground = along.x() > 0.0 ? !one.right : !one.left,
                  open = along.x() > 0.0 ? one.left : one.right;
       if (!ground || !open || !(std::abs(along.x()) > model.mesh.reach)) continue;
       Line line{x.col(0), x.col(1), 0.0};
-      const std::vector<double>& load = loads[static_cast<std::size_t>(one.group)];
+      const std::vector<double>& load = loads[one.group];
       const auto dofs = static_cast<std::size_t>(group.element->traits().dofs);
       const double ring =
           model.geometry == Geometry::axisymmetric ? static_cast<double>(EIGEN_PI) * (x(0, 0) + x(0, 1)) : 1.0;
@@ -193,7 +193,7 @@ void warn_of_uplift(Builder& b, const Activity& activity, const PorePressure& wa
       ++places;
       if (u - total <= worst) continue;
       worst = u - total;
-      worst_element = group.element_numbers[static_cast<std::size_t>(e)];
+      worst_element = group.element_numbers[e];
       card = own;
     }
   }
@@ -217,8 +217,8 @@ WetEnds wet_ends(const Model& model, const std::vector<FreeEdge>& edges, const P
     const WaterCard* const own = water.card(static_cast<std::size_t>(edge.group));
     if (own == nullptr || own->kind != WaterKind::line || own->action == WaterAction::none || edge.on_structure)
       continue;
-    const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
-    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const Group& group = model.groups[edge.group];
+    const std::vector<int>& local = group.element->edges()[edge.edge];
     const int* const nodes = group.nodes_of(edge.element);
     const Vector2 a = model.mesh.x.col(nodes[local[0]]), c = model.mesh.x.col(nodes[local[1]]);
     const auto add = [&](const Vector2& end, const Vector2& other) {
@@ -257,8 +257,8 @@ bool warn_of_dry_walls(Builder& b, const std::vector<FreeEdge>& free, const Pore
           continue;
         b.warning("S341", group.where,
                   "stage " + std::to_string(stage.number) + ": water stands on the ground beside element " +
-                      std::to_string(group.element_numbers[static_cast<std::size_t>(one.element)]) +
-                      " of group " + std::to_string(group.number) + ", up to " + rounded_text(wet.level, 6) +
+                      std::to_string(group.element_numbers[one.element]) + " of group " +
+                      std::to_string(group.number) + ", up to " + rounded_text(wet.level, 6) +
                       ", and none on its " + (side == WaterSide::left ? "left" : "right") +
                       " side: a water card of kind 1 that names the group puts it there");
         return true;
@@ -273,7 +273,7 @@ void mark_used_sides(const Builder& b, const PorePressure& water, const std::vec
                      std::vector<char>& used) {
   for (std::size_t i = 0; i < b.model.water.size(); ++i) {
     const WaterCard& card = b.model.water[i];
-    if (card.group < 0 || !b.model.groups[static_cast<std::size_t>(card.group)].structure()) continue;
+    if (card.group < 0 || !b.model.groups[card.group].structure()) continue;
     for (const BesideStructure& one : walls)
       for (const auto& [side, open] : {std::pair{WaterSide::left, one.left}, {WaterSide::right, one.right}})
         if (open && one.group == card.group && water_card(b.model, water.stage(), one.group, side) == &card)
@@ -305,7 +305,7 @@ std::set<std::pair<int, int>> structure_edges(const Model& model, const Activity
 std::array<double, 2> pressures_of(const Model& model, const PorePressure& water, const SolidEdge& edge,
                                    int node) {
   std::array<double, 2> pressures{};
-  const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+  const Group& group = model.groups[edge.group];
   const int* const nodes = group.nodes_of(edge.element);
   const std::array<int, 2> ends{node, edge.other};
   for (std::size_t end = 0; end < 2; ++end) {
@@ -313,8 +313,7 @@ std::array<double, 2> pressures_of(const Model& model, const PorePressure& water
     for (std::size_t i = 0; i < N.size(); ++i)
       if (nodes[i] == ends[end]) N[i] = 1.0;
     if (water.card(static_cast<std::size_t>(edge.group)) != nullptr)
-      pressures[end] =
-          water.at(static_cast<std::size_t>(edge.group), edge.element, model.mesh.x.col(ends[end]), N);
+      pressures[end] = water.at(edge.group, edge.element, model.mesh.x.col(ends[end]), N);
   }
   return pressures;
 }
@@ -367,7 +366,7 @@ std::map<std::pair<int, int>, LevelJump> level_jumps(Builder& b, const Activity&
       jump.largest = most;
       jump.first = one.group;
       jump.second = two.group;
-      jump.element = model.groups[g1].element_numbers[static_cast<std::size_t>(one.element)];
+      jump.element = model.groups[g1].element_numbers[one.element];
       jump.place = end > start * (1.0 + kSame) ? y : x;
     }
   }
@@ -380,8 +379,7 @@ void warn_of_level_jumps(Builder& b, const Activity& activity, const PorePressur
   const Model& model = b.model;
   for (const auto& [pair, jump] : level_jumps(b, activity, water)) {
     if (!reported.insert(pair).second) continue;
-    const Group &one = model.groups[static_cast<std::size_t>(jump.first)],
-                &two = model.groups[static_cast<std::size_t>(jump.second)];
+    const Group &one = model.groups[jump.first], &two = model.groups[jump.second];
     const WaterCard* const card = water.card(static_cast<std::size_t>(jump.first)) != nullptr
                                       ? water.card(static_cast<std::size_t>(jump.first))
                                       : water.card(static_cast<std::size_t>(jump.second));
@@ -426,7 +424,7 @@ void check_pressures(Builder& b) {
   for (std::size_t i = 0; i < used.size(); ++i) {
     const WaterCard& card = b.model.water[i];
     if (used[i] != 0 || card.group < 0 || card.kind != WaterKind::line) continue;
-    const Group& group = b.model.groups[static_cast<std::size_t>(card.group)];
+    const Group& group = b.model.groups[card.group];
     if (group.structure())
       b.warning(
           "S332", card.where,
@@ -441,7 +439,7 @@ void warn_of_joints_beside_undrained(Builder& b) {
   const Model& model = b.model;
   for (const WaterCard& card : model.water) {
     if (card.kind != WaterKind::undrained) continue;
-    const Group& soil = model.groups[static_cast<std::size_t>(card.group)];
+    const Group& soil = model.groups[card.group];
     const std::set<int> shut(soil.nodes.begin(), soil.nodes.end());
     const auto joint = std::ranges::find_if(model.groups, [&](const Group& group) {
       return group.interface() &&

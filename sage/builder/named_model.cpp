@@ -232,13 +232,13 @@ double NamedModel::number_at(int card, const std::string& field, int in_list) co
 
 // The card's values move to the end of the deck's, where there is room for one more.
 void NamedModel::put(int index, const std::string& field, int in_list, double number) {
-  Card& card = deck_.cards[static_cast<std::size_t>(index)];
+  Card& card = deck_.cards[index];
   CardValues values = values_of(deck_, card);
-  const std::vector<FieldSpec>& fields = deck_.specs[static_cast<std::size_t>(card.spec)].fields;
+  const std::vector<FieldSpec>& fields = deck_.specs[card.spec].fields;
   auto at = static_cast<std::size_t>(
       std::ranges::find_if(fields, [&](const FieldSpec& one) { return one.name == field; }) - fields.begin());
   if (at == fields.size()) {  // such cards have no such field: this one has, from here on
-    CardSpec spec = deck_.specs[static_cast<std::size_t>(card.spec)];
+    CardSpec spec = deck_.specs[card.spec];
     FieldSpec added;
     added.name = added.label = field;
     spec.fields.push_back(added);

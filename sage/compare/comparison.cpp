@@ -393,10 +393,8 @@ void add_structures(Comparison& c, const Side& a, const Side& b) {
     const FieldList fields = structure_forces(model);
     for (const ExtremeRow& row : extremes(model, 0, side.last())) {
       if (row.low == 0.0 && row.high == 0.0) continue;  // what the geometry does not have
-      const FieldEntry& field = *fields[static_cast<std::size_t>(row.field)];
-      const std::string section = "structure " +
-                                  structure_name(model.groups[static_cast<std::size_t>(row.group)]) +
-                                  ", end of the run",
+      const FieldEntry& field = *fields[row.field];
+      const std::string section = "structure " + structure_name(model.groups[row.group]) + ", end of the run",
                         unit = unit_text(field.dimension, model.units);
       list.push_back({section, field.name + ", least", unit, row.low});
       list.push_back({section, field.name + ", largest", unit, row.high});
@@ -432,7 +430,7 @@ void add_line(Comparison& c, const Side& a, const Side& b, const Line& line, con
     }
   }
   const auto value = [&](std::size_t k, int i, std::size_t component) {
-    return samples[k].empty() ? kUnknown : samples[k][static_cast<std::size_t>(i)].values[component];
+    return samples[k].empty() ? kUnknown : samples[k][i].values[component];
   };
   for (int i = 0; i < line.n; ++i) {
     const double t = static_cast<double>(i) / (line.n - 1);
@@ -445,9 +443,8 @@ void add_line(Comparison& c, const Side& a, const Side& b, const Line& line, con
   // A side without results has no places, and takes none from the other.
   std::vector<int> common;
   for (int i = 0; i < line.n; ++i)
-    if (std::ranges::all_of(samples, [i](const std::vector<Sample>& side) {
-          return side.empty() || side[static_cast<std::size_t>(i)].element > 0;
-        }))
+    if (std::ranges::all_of(
+            samples, [i](const std::vector<Sample>& side) { return side.empty() || side[i].element > 0; }))
       common.push_back(i);
   const int n = static_cast<int>(common.size());
   const std::string section = n == line.n
@@ -529,9 +526,9 @@ void add_nodal(Comparison& c, const Side& a, const Side& b) {
     }
     const std::string direction = axis(a, b, k);
     table.add("largest |u| along " + direction, largest_a, largest_b);
-    table.add(fmt::format("u along {} of node {} (largest difference)", direction,
-                          a.model().mesh.number[static_cast<std::size_t>(worst)]),
-              ua[DofMap::displacement(worst, k)], ub[DofMap::displacement(worst, k)]);
+    table.add(
+        fmt::format("u along {} of node {} (largest difference)", direction, a.model().mesh.number[worst]),
+        ua[DofMap::displacement(worst, k)], ub[DofMap::displacement(worst, k)]);
   }
 }
 

@@ -13,11 +13,11 @@ namespace sage::compare {
 std::vector<Face> faces_of(const Model& model) {
   std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups)
-    for (int node : group.nodes) used[static_cast<std::size_t>(node)] = 1;
+    for (int node : group.nodes) used[node] = 1;
   const double infinite = std::numeric_limits<double>::infinity();
   Vector2 low(infinite, infinite), high(-infinite, -infinite);
   for (int n = 0; n < model.mesh.nodes(); ++n)
-    if (used[static_cast<std::size_t>(n)]) {
+    if (used[n]) {
       low = low.cwiseMin(model.mesh.x.col(n));
       high = high.cwiseMax(model.mesh.x.col(n));
     }
@@ -30,7 +30,7 @@ std::vector<Face> faces_of(const Model& model) {
     if (ring && normal == 0 && std::abs(place) <= tolerance) return;
     Face face{name, normal, outward, {}, {}, 0.0, size[normal]};
     for (int n = 0; n < model.mesh.nodes(); ++n)
-      if (used[static_cast<std::size_t>(n)] && std::abs(model.mesh.x(normal, n) - place) <= tolerance) {
+      if (used[n] && std::abs(model.mesh.x(normal, n) - place) <= tolerance) {
         const double along = model.mesh.x(1 - normal, n);
         face.nodes.push_back(n);
         face.at_end.push_back(std::min(along - low[1 - normal], high[1 - normal] - along) <= tolerance ? 1 : 0);
@@ -162,7 +162,7 @@ void Side::close_stage(StageState& state, const Frame& end) {
   for (int dof = 0; dof < map.displacements(); ++dof) {
     const int c = map.at(dof).component;
     state.applied[c] += (*now.external)[dof];
-    if (now.activity->held[static_cast<std::size_t>(dof)]) state.reactions[c] += reaction(now, dof);
+    if (now.activity->held[dof]) state.reactions[c] += reaction(now, dof);
   }
   raise_floors(stage_of(*model_, state.stage), end);
 }

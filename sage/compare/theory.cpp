@@ -15,7 +15,7 @@ namespace {
 
 double parameter(const Material& material, std::string_view name, double fallback) {
   const int i = material.entry->find(name);
-  return i < 0 ? fallback : material.parameters[static_cast<std::size_t>(i)];
+  return i < 0 ? fallback : material.parameters[i];
 }
 
 bool is_solid(const Group& group) {

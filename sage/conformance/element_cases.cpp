@@ -59,7 +59,7 @@ std::vector<ElementCase> of_kind(ElementKind kind, const std::vector<ElementCase
 Eigen::Matrix2Xd parent_nodes(const ElementEntry& entry) {
   Eigen::Matrix2Xd nodes(2, static_cast<Eigen::Index>(entry.parent_nodes.size()));
   for (Eigen::Index i = 0; i < nodes.cols(); ++i) {
-    const auto& [xi, eta] = entry.parent_nodes[static_cast<std::size_t>(i)];
+    const auto& [xi, eta] = entry.parent_nodes[i];
     nodes.col(i) << xi, (has_area(entry) ? eta : 0.0);
   }
   return nodes;
@@ -105,7 +105,7 @@ ElementRun::ElementRun(const Element& e, const Eigen::Matrix2Xd& nodes, LawRef l
   const auto points = static_cast<std::size_t>(t.points), n = static_cast<std::size_t>(t.law_size);
   const PointHistory quantities = history_of(law, t);
   history = static_cast<int>(quantities.size());
-  geometry.resize(static_cast<std::size_t>(t.geometry_size()));
+  geometry.resize(t.geometry_size());
   e.geometry(x, geometry);
   sigma0.assign(points * n, 0.0);
   eps0 = sigma1 = eps1 = sigma0;
@@ -148,7 +148,7 @@ double tangent_error(ElementRun& run, const Eigen::VectorXd& du, double step) {
 
 double ElementRun::weight(int point) const {
   const ElementTraits& t = element->traits();
-  return geometry[static_cast<std::size_t>(point * (1 + t.law_size * t.dofs))];
+  return geometry[point * (1 + t.law_size * t.dofs)];
 }
 
 Eigen::MatrixXd ElementRun::B(int point) const {

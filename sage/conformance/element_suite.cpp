@@ -184,7 +184,7 @@ std::vector<std::array<double, 2>> vtk_places(const ElementEntry& entry) {
       const double x = static_cast<double>(i) / p, y = static_cast<double>(j) / p;
       at.push_back(triangle ? std::array{x, y} : std::array{2 * x - 1, 2 * y - 1});
     }
-  at.resize(static_cast<std::size_t>(nodes));  // the serendipity quadrilateral has none inside
+  at.resize(nodes);  // the serendipity quadrilateral has none inside
   return at;
 }
 
@@ -303,7 +303,7 @@ TEST_P(Elements, EachPointGetsItsOwnState) {
       const auto h = static_cast<std::size_t>(run.history_size() * p);
       EXPECT_NEAR(run.h1[h], run.h0[h] + deps.sum(), 1e-12 * (1.0 + run.h0[h]));
       EXPECT_EQ(run.h1[h + 1], run.h0[h + 1] + 1.0);
-      EXPECT_EQ(run.status[static_cast<std::size_t>(p)], PointStatus::yielded);
+      EXPECT_EQ(run.status[p], PointStatus::yielded);
       f += run.weight(p) * run.B(p).transpose() *
            Eigen::Map<const Eigen::VectorXd>(run.sigma1.data() + first, t.law_size);
     }
@@ -401,7 +401,7 @@ TEST_P(Elements, NoPointHasTheStatusOfAnother) {
     const auto element = c.make();
     const int points = element->traits().points;
     std::vector<PointContext> contexts(static_cast<std::size_t>(points));
-    for (int p = 0; p < points; ++p) contexts[static_cast<std::size_t>(p)].point = p;
+    for (int p = 0; p < points; ++p) contexts[p].point = p;
     std::visit(
         [&]<int N>(const Law<N>*) {
           const SilentLaw<N> law;
@@ -409,8 +409,7 @@ TEST_P(Elements, NoPointHasTheStatusOfAnother) {
           run.contexts = contexts.data();
           ASSERT_EQ(run.evaluate(Eigen::VectorXd::Zero(element->traits().dofs)), Outcome::ok);
           for (int p = 0; p < points; ++p)
-            EXPECT_EQ(run.status[static_cast<std::size_t>(p)],
-                      p == 0 ? PointStatus::yielded : PointStatus::elastic);
+            EXPECT_EQ(run.status[p], p == 0 ? PointStatus::yielded : PointStatus::elastic);
         },
         ElasticLaws().of(c));
   }
@@ -563,7 +562,7 @@ Eigen::MatrixXd rigid_motions_with_turning(const ElementCase& c, const Eigen::Ma
     const Eigen::Index nodes =
         unknown.nodes.empty() ? c.entry->nodes : static_cast<Eigen::Index>(unknown.nodes.size());
     for (Eigen::Index i = 0; i < nodes; ++i) {
-      const Eigen::Index node = unknown.nodes.empty() ? i : unknown.nodes[static_cast<std::size_t>(i)];
+      const Eigen::Index node = unknown.nodes.empty() ? i : unknown.nodes[i];
       if (unknown.field.displacement()) {
         u.middleRows<2>(dof) = moved.middleRows<2>(2 * node);
         dof += 2;
@@ -778,17 +777,17 @@ TEST_P(Elements, EachPointGetsItsOwnContext) {
     const auto element = c.make();
     const int points = element->traits().points;
     std::vector<PointContext> contexts(static_cast<std::size_t>(points));
-    for (int p = 0; p < points; ++p) contexts[static_cast<std::size_t>(p)].point = p + 7;
+    for (int p = 0; p < points; ++p) contexts[p].point = p + 7;
     std::visit(
         [&]<int N>(const Law<N>*) {
           const ContextLaw<N> law;
           ElementRun run(*element, sample_shape(*c.entry), static_cast<const Law<N>*>(&law));
           run.contexts = contexts.data();
           ASSERT_EQ(run.evaluate(Eigen::VectorXd::Zero(element->traits().dofs)), Outcome::ok);
-          for (int p = 0; p < points; ++p) EXPECT_EQ(run.h1[static_cast<std::size_t>(p)], p + 7.0);
+          for (int p = 0; p < points; ++p) EXPECT_EQ(run.h1[p], p + 7.0);
           run.contexts = nullptr;
           run.evaluate(Eigen::VectorXd::Zero(element->traits().dofs));
-          for (int p = 0; p < points; ++p) EXPECT_EQ(run.h1[static_cast<std::size_t>(p)], -1.0) << "none";
+          for (int p = 0; p < points; ++p) EXPECT_EQ(run.h1[p], -1.0) << "none";
         },
         ElasticLaws().of(c));
   }
@@ -808,8 +807,8 @@ TEST_P(Elements, PointToNodeReproducesLinearFields) {
       for (int i = 0; i < t.nodes; ++i) {
         double value = 0.0, ones = 0.0;
         for (int p = 0; p < t.points; ++p) {
-          value += E[static_cast<std::size_t>(i * t.points + p)] * field(element->position(x, p));
-          ones += E[static_cast<std::size_t>(i * t.points + p)];
+          value += E[i * t.points + p] * field(element->position(x, p));
+          ones += E[i * t.points + p];
         }
         EXPECT_NEAR(ones, 1.0, 1e-13);
         EXPECT_NEAR(value, t.points == 1 ? field(element->position(x, 0)) : field(x.col(i)), 1e-12);
@@ -879,7 +878,7 @@ Eigen::VectorXd traction_loads(const PatchMesh& mesh, const Element& element, co
   for (const auto& nodes : mesh.elements)
     for (const int local : own_edges(mesh, element, nodes)) {
       const Eigen::Matrix2Xd x = element_nodes(mesh.x, nodes);
-      const std::vector<int>& edge = element.edges()[static_cast<std::size_t>(local)];
+      const std::vector<int>& edge = element.edges()[local];
       const Vector2 along = (x.col(edge[1]) - x.col(edge[0])).normalized(), out(along.y(), -along.x());
       const Vector2 traction = stress * out;
       std::vector<double> f(2 * nodes.size(), 0.0);
@@ -916,8 +915,8 @@ TEST_P(Elements, SolidPatchCarriesLoadedEdges) {
       const auto hold = [&](const Vector2& at, bool x, bool y) {
         Eigen::Index node = 0;
         (mesh.x.colwise() - at).colwise().norm().minCoeff(&node);
-        fixed[static_cast<std::size_t>(2 * node)] = x ? 1 : 0;
-        fixed[static_cast<std::size_t>(2 * node + 1)] = y ? 1 : 0;
+        fixed[2 * node] = x ? 1 : 0;
+        fixed[2 * node + 1] = y ? 1 : 0;
       };
       hold(corners.x.col(0), !c.axisymmetric(), true);
       if (!c.axisymmetric()) hold(corners.x.col(1), false, true);

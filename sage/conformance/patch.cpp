@@ -126,7 +126,7 @@ Eigen::Matrix2Xd solve(const Eigen::Matrix2Xd& x, const std::vector<Group>& grou
 
 std::vector<int> own_edges(const PatchMesh& mesh, const Element& element, const std::vector<int>& nodes) {
   const auto ends = [&](const std::vector<int>& of, const std::vector<int>& edge) {
-    return std::minmax({of[static_cast<std::size_t>(edge[0])], of[static_cast<std::size_t>(edge[1])]});
+    return std::minmax({of[edge[0]], of[edge[1]]});
   };
   std::vector<int> own;
   for (std::size_t local = 0; local < element.edges().size(); ++local) {
@@ -143,8 +143,7 @@ std::vector<char> boundary_nodes(const PatchMesh& mesh, const Element& element) 
   std::vector<char> on_boundary(static_cast<std::size_t>(mesh.x.cols()), 0);
   for (const auto& nodes : mesh.elements)
     for (const int edge : own_edges(mesh, element, nodes))
-      for (const int local : element.edges()[static_cast<std::size_t>(edge)])
-        on_boundary[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])] = 1;
+      for (const int local : element.edges()[edge]) on_boundary[nodes[local]] = 1;
   return on_boundary;
 }
 

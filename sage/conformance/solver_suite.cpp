@@ -138,8 +138,7 @@ TEST_P(Solvers, FactorisesAgainWithNewValues) {
   const Eigen::VectorXd first = solve(*solver, b);
   for (std::size_t e = 0; e < system.K.size(); ++e) system.K[e] *= 1.0 + static_cast<double>(e % 5);
   solver->clear();
-  for (int e = 0; e < system.elements.count(); ++e)
-    solver->add(e, system.K[static_cast<std::size_t>(e)].data());
+  for (int e = 0; e < system.elements.count(); ++e) solver->add(e, system.K[e].data());
   solver->factorise();
   expect_solved(dense(system), solve(*solver, b), b);
   // And a new pattern, smaller than the first.
@@ -271,8 +270,7 @@ TEST_P(Solvers, WorksAgainAfterASingularMatrix) {
   load(*solver, system);
   solver->clear();
   EXPECT_THROW(solver->factorise(), SingularMatrix);
-  for (int e = 0; e < system.elements.count(); ++e)
-    solver->add(e, system.K[static_cast<std::size_t>(e)].data());
+  for (int e = 0; e < system.elements.count(); ++e) solver->add(e, system.K[e].data());
   solver->factorise();
   const Eigen::VectorXd b = random_vector(system.equations, 2);
   expect_solved(dense(system), solve(*solver, b), b);

@@ -99,7 +99,7 @@ System join(const System& first, const System& second) {
     std::vector<int> shifted(list.begin(), list.end());
     for (int& equation : shifted)
       if (equation >= 0) equation += first.equations;
-    both.add_element(std::move(shifted), second.K[static_cast<std::size_t>(e)]);
+    both.add_element(std::move(shifted), second.K[e]);
   }
   both.equations += second.equations;
   return both;
@@ -119,10 +119,10 @@ template <class Act>
 void each_term(const System& system, const Act& act) {
   for (int e = 0; e < system.elements.count(); ++e) {
     const auto list = system.elements.of(e);
-    const MatrixXd& K = system.K[static_cast<std::size_t>(e)];
+    const MatrixXd& K = system.K[e];
     for (Eigen::Index c = 0; c < K.cols(); ++c)
       for (Eigen::Index r = 0; r < K.rows(); ++r) {
-        const int i = list[static_cast<std::size_t>(r)], j = list[static_cast<std::size_t>(c)];
+        const int i = list[r], j = list[c];
         if (i >= 0 && j >= 0) act(i, j, K(r, c));
       }
   }
@@ -151,7 +151,7 @@ double norm1(const System& system) {
 void load(LinearSolver& solver, const System& system) {
   solver.analyse(system.equations, system.elements);
   solver.clear();
-  for (int e = 0; e < system.elements.count(); ++e) solver.add(e, system.K[static_cast<std::size_t>(e)].data());
+  for (int e = 0; e < system.elements.count(); ++e) solver.add(e, system.K[e].data());
 }
 
 }  // namespace sage::conformance

@@ -65,7 +65,7 @@ class Archive {
     (*this)(size);
     if (reading_) {
       expect(size * sizeof(double));
-      v.resize(static_cast<Eigen::Index>(size));
+      v.resize(size);
     }
     raw(v.data(), size * sizeof(double));
   }

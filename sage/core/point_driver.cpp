@@ -74,7 +74,7 @@ struct PointDriver<N>::Aim {
   Matrix<N> softness{};
   bool invertible = false;  // that stiffness: no direction is without softness
 
-  bool holds_stress(int i) const { return control[static_cast<std::size_t>(i)] == Control::stress; }
+  bool holds_stress(int i) const { return control[i] == Control::stress; }
 
   // What the stress-controlled components still lack; zero for the others.
   Vector<N> lack(const Vector<N>& deps, const Vector<N>& sigma) const {

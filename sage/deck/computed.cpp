@@ -25,23 +25,23 @@ bool is_list(const FieldRule& rule) {
 
 // A card whose places are not kept is read again for them, once.
 const std::vector<FieldValue>& DeckReader::fields_of(std::vector<CardFields>& kept, int rule, int card) const {
-  CardFields& fields = kept[static_cast<std::size_t>(rule)];
-  if (fields.card != card) fields = {card, deck_.values(deck_.cards[static_cast<std::size_t>(card)])};
+  CardFields& fields = kept[rule];
+  if (fields.card != card) fields = {card, deck_.values(deck_.cards[card])};
   return fields.values;
 }
 
 // Of the card being read, or of the last of its kind.
 const FieldValue* DeckReader::field_value(int card, int field) const {
-  const int latest = latest_[static_cast<std::size_t>(card)];
+  const int latest = latest_[card];
   if (!is_own(card) && latest < 0) return nullptr;
   const std::vector<FieldValue>& values = is_own(card) ? fields_ : fields_of(latest_fields_, card, latest);
-  return static_cast<std::size_t>(field) < values.size() ? &values[static_cast<std::size_t>(field)] : nullptr;
+  return static_cast<std::size_t>(field) < values.size() ? &values[field] : nullptr;
 }
 
 ExpressionValue DeckReader::value_of(int card, int field) const {
   const FieldValue* value = field_value(card, field);
   if (!value) return {};
-  return {number_in(*value, rule_of(card).spec.fields[static_cast<std::size_t>(field)]), trimmed(value->text)};
+  return {number_in(*value, rule_of(card).spec.fields[field]), trimmed(value->text)};
 }
 
 ExpressionValue DeckReader::value_of(const ExpressionNode& node, double operand) const {
@@ -59,9 +59,9 @@ ExpressionValue DeckReader::value_of(const ExpressionNode& node, double operand)
     case Kind::sum:
       return number(sum_of(node));
     case Kind::count:
-      return number(counts_[static_cast<std::size_t>(node.card)]);
+      return number(counts_[node.card]);
     case Kind::order:
-      return number(counts_[static_cast<std::size_t>(node.card)] + (is_own(node.card) ? 1 : 0));
+      return number(counts_[node.card] + (is_own(node.card) ? 1 : 0));
     case Kind::index:
       return number(list_index_);
     case Kind::item:
@@ -73,16 +73,15 @@ ExpressionValue DeckReader::value_of(const ExpressionNode& node, double operand)
 
 // While a card is being read, the latest of its kind is the one before.
 ExpressionValue DeckReader::previous_value(const ExpressionNode& node) const {
-  const int index = previous_[static_cast<std::size_t>(node.card)];
-  const int latest = latest_[static_cast<std::size_t>(node.card)];
+  const int index = previous_[node.card];
+  const int latest = latest_[node.card];
   const int wanted = is_own(node.card) ? latest : index;
   if (wanted < 0) return {};
   std::vector<CardFields>& kept = is_own(node.card) ? latest_fields_ : previous_fields_;
   const std::vector<FieldValue>& values = fields_of(kept, node.card, wanted);
   if (static_cast<std::size_t>(node.field) >= values.size()) return {};
-  const FieldValue& value = values[static_cast<std::size_t>(node.field)];
-  return {number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]),
-          trimmed(value.text)};
+  const FieldValue& value = values[node.field];
+  return {number_in(value, rule_of(node.card).spec.fields[node.field]), trimmed(value.text)};
 }
 
 // The values of a field; of the last of a card all that follow.
@@ -90,9 +89,8 @@ std::span<const FieldValue> DeckReader::list_of(int card, int field) const {
   const FieldValue* first = field_value(card, field);
   if (!first) return {};
   if (static_cast<std::size_t>(field) + 1 < rule_of(card).spec.fields.size()) return {first, 1};
-  const std::vector<FieldValue>& values =
-      is_own(card) ? fields_ : latest_fields_[static_cast<std::size_t>(card)].values;
-  return std::span(values).subspan(static_cast<std::size_t>(field));
+  const std::vector<FieldValue>& values = is_own(card) ? fields_ : latest_fields_[card].values;
+  return std::span(values).subspan(field);
 }
 
 // NaN where the list has no such place.
@@ -101,15 +99,14 @@ ExpressionValue DeckReader::item_of(const ExpressionNode& node, double place) co
   if (!(place >= 1.0 && place <= static_cast<double>(list.size()) && place == std::floor(place)))
     return {std::numeric_limits<double>::quiet_NaN(), {}};
   const FieldValue& value = list[static_cast<std::size_t>(place) - 1];
-  return {number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]),
-          trimmed(value.text)};
+  return {number_in(value, rule_of(node.card).spec.fields[node.field]), trimmed(value.text)};
 }
 
 double DeckReader::sum_of(const ExpressionNode& node) const {
   double sum = sums_.at({node.card, node.field});
   if (is_own(node.card))
     for (const FieldValue& value : list_of(node.card, node.field))
-      sum += number_in(value, rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)]);
+      sum += number_in(value, rule_of(node.card).spec.fields[node.field]);
   return sum;
 }
 
@@ -120,12 +117,11 @@ double DeckReader::sum_of_first(const ExpressionNode& node, double count) const 
     return std::numeric_limits<double>::quiet_NaN();
   if (list.empty()) return 0.0;
   ListSum& last = list_sums_[{node.card, node.field}];
-  const std::size_t card = is_own(node.card)
-                               ? deck_.cards.size()
-                               : static_cast<std::size_t>(latest_[static_cast<std::size_t>(node.card)]);
+  const std::size_t card =
+      is_own(node.card) ? deck_.cards.size() : static_cast<std::size_t>(latest_[node.card]);
   const auto wanted = static_cast<std::size_t>(count);
   if (last.card != card || last.count > wanted) last = {card, 0, 0.0};
-  const FieldSpec& spec = rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)];
+  const FieldSpec& spec = rule_of(node.card).spec.fields[node.field];
   for (; last.count < wanted; ++last.count) last.sum += number_in(list[last.count], spec);
   return last.sum;
 }
@@ -193,8 +189,7 @@ bool DeckReader::copies_blank(const Expression& expression) const {
   if (expression.nodes.size() != 1 || expression.nodes[0].kind != ExpressionNode::Kind::field) return false;
   const ExpressionNode& node = expression.nodes[0];
   const FieldValue* value = field_value(node.card, node.field);
-  return value && value->blank &&
-         !rule_of(node.card).spec.fields[static_cast<std::size_t>(node.field)].has_fallback;
+  return value && value->blank && !rule_of(node.card).spec.fields[node.field].has_fallback;
 }
 
 void DeckReader::compute(const CardRule& rule, std::size_t field, const Expression& expression,
@@ -294,7 +289,7 @@ void DeckReader::make_card(const LayoutEntry& entry, int owner, int line) {
   // The line of what it says; that of the card read last, where it says nothing of the deck.
   Card& made = deck_.cards[index];
   for (std::int32_t i = 0; i < made.value_count; ++i) {
-    const ValuePlace& one = deck_.places[static_cast<std::size_t>(made.first_place + i)];
+    const ValuePlace& one = deck_.places[made.first_place + i];
     if (one.first_column == 0) continue;
     made.line = one.line;
     return;
@@ -311,18 +306,18 @@ void DeckReader::make_cards(const LayoutEntry& entry, int owner, int line) {
 // What the layout makes out of a card stands right behind it.
 void DeckReader::make_followers(int rule, int card) {
   const int owner = owner_of_followers(card);
-  const int line = deck_.cards[static_cast<std::size_t>(card)].line;
-  for (const LayoutEntry* entry : followers_[static_cast<std::size_t>(rule)])
+  const int line = deck_.cards[card].line;
+  for (const LayoutEntry* entry : followers_[rule])
     if (!stopped_) make_cards(*entry, owner, line);
 }
 
 // Themselves if they open, otherwise what they belong to; an item of a list belongs to the READ's first card.
 int DeckReader::owner_of_followers(int index) const {
-  const Card& card = deck_.cards[static_cast<std::size_t>(index)];
-  if (opens_[static_cast<std::size_t>(card.spec)]) return index;
+  const Card& card = deck_.cards[index];
+  if (opens_[card.spec]) return index;
   if (!rule_of(card.spec).is_item || card.owner < 0) return card.owner;
-  const Card& read = deck_.cards[static_cast<std::size_t>(card.owner)];
-  return opens_[static_cast<std::size_t>(read.spec)] ? card.owner : read.owner;
+  const Card& read = deck_.cards[card.owner];
+  return opens_[read.spec] ? card.owner : read.owner;
 }
 
 // sign: -1 takes the card out again.
@@ -330,7 +325,7 @@ void DeckReader::count_card(const Card& card, int sign) {
   const auto rule = static_cast<std::size_t>(card.spec);
   counts_[rule] += sign;
   for (const int field : summed_[rule]) {
-    const FieldSpec& spec = rule_of(card.spec).spec.fields[static_cast<std::size_t>(field)];
+    const FieldSpec& spec = rule_of(card.spec).spec.fields[field];
     const bool list = static_cast<std::size_t>(field) + 1 == rule_of(card.spec).spec.fields.size();
     double& sum = sums_[{card.spec, field}];
     // What stands behind the values of a card that can be read again is blank.

@@ -33,8 +33,8 @@ std::vector<CardView> Deck::all(std::string_view name) const {
   for (std::size_t i = 0; i < specs.size(); ++i) wanted[i] = specs[i].name == name;
   std::vector<CardView> views;
   if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) return views;
-  const auto is_wanted = [&](const Card& card) { return wanted[static_cast<std::size_t>(card.spec)] != 0; };
-  views.reserve(static_cast<std::size_t>(std::count_if(cards.begin(), cards.end(), is_wanted)));
+  const auto is_wanted = [&](const Card& card) { return wanted[card.spec] != 0; };
+  views.reserve(std::count_if(cards.begin(), cards.end(), is_wanted));
   for (std::size_t i = 0; i < cards.size(); ++i)
     if (is_wanted(cards[i])) views.emplace_back(*this, static_cast<int>(i));
   return views;
@@ -46,7 +46,7 @@ std::vector<CardView> Deck::all(std::string_view name, const CardView& owner) co
   const int own_spec = owner.card().spec;
   for (std::size_t i = static_cast<std::size_t>(owner.index()) + 1; i < cards.size(); ++i) {
     if (cards[i].spec == own_spec) break;
-    if (cards[i].owner == owner.index() && specs[static_cast<std::size_t>(cards[i].spec)].name == name)
+    if (cards[i].owner == owner.index() && specs[cards[i].spec].name == name)
       views.emplace_back(*this, static_cast<int>(i));
   }
   return views;
@@ -63,9 +63,8 @@ int Deck::first_of(std::string_view name) const {
   std::vector<char> wanted(specs.size());
   for (std::size_t i = 0; i < specs.size(); ++i) wanted[i] = specs[i].name == name;
   if (std::find(wanted.begin(), wanted.end(), 1) == wanted.end()) return -1;
-  const auto found = std::find_if(cards.begin(), cards.end(), [&](const Card& card) {
-    return wanted[static_cast<std::size_t>(card.spec)] != 0;
-  });
+  const auto found =
+      std::find_if(cards.begin(), cards.end(), [&](const Card& card) { return wanted[card.spec] != 0; });
   return found == cards.end() ? -1 : static_cast<int>(found - cards.begin());
 }
 
@@ -82,10 +81,10 @@ void Deck::add(Card card, std::span<const FieldValue> fields, bool again) {
 
 void Deck::cut_back(std::size_t card) {
   if (card >= cards.size()) return;
-  numbers.resize(static_cast<std::size_t>(cards[card].first_value));
+  numbers.resize(cards[card].first_value);
   for (std::size_t i = card; i < cards.size(); ++i)
     if (cards[i].first_place >= 0) {
-      places.resize(static_cast<std::size_t>(cards[i].first_place));
+      places.resize(cards[i].first_place);
       break;
     }
   cards.resize(card);
@@ -131,8 +130,7 @@ std::optional<FieldValue> CardView::find(std::string_view field) const {
   const int at = place(field);
   if (at < 0) return std::nullopt;
   const std::vector<FieldValue> values = deck_->values(card());
-  return static_cast<std::size_t>(at) < values.size() ? std::optional(values[static_cast<std::size_t>(at)])
-                                                      : std::nullopt;
+  return static_cast<std::size_t>(at) < values.size() ? std::optional(values[at]) : std::nullopt;
 }
 
 double CardView::real(std::string_view field, double fallback) const {
@@ -143,7 +141,7 @@ double CardView::real_at(int at, double fallback) const {
   const double number = number_at(at);
   if (!Deck::is_blank(number)) return number;
   if (at < 0) return fallback;
-  const FieldSpec& field_spec = spec().fields[static_cast<std::size_t>(at)];
+  const FieldSpec& field_spec = spec().fields[at];
   return field_spec.has_fallback ? field_spec.fallback : fallback;
 }
 
@@ -210,7 +208,7 @@ SourcePosition CardView::where(const FieldValue& value) const {
 std::string CardView::label(std::string_view field) const {
   const int at = place(field);
   if (at < 0) return std::string(field);
-  const FieldSpec& field_spec = spec().fields[static_cast<std::size_t>(at)];
+  const FieldSpec& field_spec = spec().fields[at];
   return field_spec.unit.empty() ? field_spec.label : field_spec.label + ", " + field_spec.unit;
 }
 

@@ -119,7 +119,7 @@ class Deck {
   // A value of a card by its place there; blank_number() where it is blank or there is none.
   double number(const Card& card, int place) const {
     if (place < 0 || place >= card.value_count) return blank_number();
-    return numbers[static_cast<std::size_t>(card.first_value + place)];
+    return numbers[card.first_value + place];
   }
   // The values of a card with their places; the line is read again where they are not kept.
   std::vector<FieldValue> values(const Card& card) const;
@@ -158,8 +158,8 @@ class CardView {
   CardView(const Deck& deck, int card) : deck_(&deck), card_(card) {}
 
   int index() const { return card_; }
-  const Card& card() const { return deck_->cards[static_cast<std::size_t>(card_)]; }
-  const CardSpec& spec() const { return deck_->specs[static_cast<std::size_t>(card().spec)]; }
+  const Card& card() const { return deck_->cards[card_]; }
+  const CardSpec& spec() const { return deck_->specs[card().spec]; }
 
   // The field's value; `fallback` where the layout has no such field or the card leaves it blank.
   double real(std::string_view field, double fallback = 0.0) const;

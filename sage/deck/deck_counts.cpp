@@ -27,7 +27,7 @@ bool DeckReader::is_faulty(const ExpressionNode& node) const {
   if (node.field < 0 || faulty_.empty()) return false;
   const auto field = static_cast<std::size_t>(node.field);
   if (node.card == own_rule_) return is_faulty(deck_.cards.size(), field);
-  const int card = latest_[static_cast<std::size_t>(node.card)];
+  const int card = latest_[node.card];
   return card >= 0 && is_faulty(static_cast<std::size_t>(card), field);
 }
 
@@ -72,8 +72,8 @@ std::string DeckReader::count_source(const Expression& expression) const {
     if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) {
         const CardRule& rule = rule_of(node.card);
-        return rule.spec.fields[static_cast<std::size_t>(node.field)].label + " of the " +
-               card_text(rule.spec.label) + ", line " + std::to_string(value->line);
+        return rule.spec.fields[node.field].label + " of the " + card_text(rule.spec.label) + ", line " +
+               std::to_string(value->line);
       }
   return expression.source;
 }
@@ -159,7 +159,7 @@ DeckReader::Misplaced DeckReader::check_place(const CardRule& rule, const Card& 
 // A list that runs into cards of another kind: it is cut before the first of them.
 bool DeckReader::cut_list(const CardRule& rule, const Card& card) {
   for (const FieldFlaw& flaw : flaws_) {
-    const int line = fields_[static_cast<std::size_t>(flaw.value)].line;
+    const int line = fields_[flaw.value].line;
     if (line == card.line || (flaw.fault == FieldFault::none && !(flaw.hints & hint_inner_blank))) continue;
     for (int other = card.spec - 1; other <= card.spec + 3 && other < static_cast<int>(layout_.cards.size());
          ++other) {
@@ -187,7 +187,7 @@ std::string DeckReader::unmet(const LayoutEntry& entry) const {
     if (node.kind != ExpressionNode::Kind::field) continue;
     const FieldValue* value = field_value(node.card, node.field);
     if (!value) continue;
-    const std::string& codes = rule_of(node.card).rules[static_cast<std::size_t>(node.field)].codes;
+    const std::string& codes = rule_of(node.card).rules[node.field].codes;
     text += ", and the " + count_source(entry.when) + ", is " +
             (value->kind == FieldKind::text ? quoted(trimmed(value->text)) : number_text(value->number)) +
             (codes.empty() ? "" : " (" + codes + ")");
@@ -198,7 +198,7 @@ std::string DeckReader::unmet(const LayoutEntry& entry) const {
 
 // "the 4 that were announced (...) are read", for a card that came too late.
 std::string DeckReader::announced(int rule) {
-  const LayoutEntry* entry = entry_of_[static_cast<std::size_t>(rule)];
+  const LayoutEntry* entry = entry_of_[rule];
   if (entry && !entry->when.empty() && !truth(entry->when)) return unmet(*entry);
   if (!entry || entry->run != LayoutEntry::Run::counted) return "its place is earlier";
   const double count = number_of(entry->count);

@@ -59,20 +59,19 @@ DeckReader::DeckReader(const SourceText& source, const Layout& layout, const Rea
   for_each_expression(layout, [this](const Expression& expression) {
     for (const ExpressionNode& node : expression.nodes)
       if (node.kind == ExpressionNode::Kind::sum && sums_.try_emplace({node.card, node.field}, 0.0).second)
-        summed_[static_cast<std::size_t>(node.card)].push_back(node.field);
+        summed_[node.card].push_back(node.field);
   });
 }
 
 void DeckReader::find_entries(const std::vector<LayoutEntry>& entries) {
   for (const LayoutEntry& entry : entries) {
-    if (entry.card >= 0) entry_of_[static_cast<std::size_t>(entry.card)] = &entry;
-    if (entry.card >= 0 && entry.opens) opens_[static_cast<std::size_t>(entry.card)] = 1;
-    if (entry.made_from >= 0) followers_[static_cast<std::size_t>(entry.made_from)].push_back(&entry);
+    if (entry.card >= 0) entry_of_[entry.card] = &entry;
+    if (entry.card >= 0 && entry.opens) opens_[entry.card] = 1;
+    if (entry.made_from >= 0) followers_[entry.made_from].push_back(&entry);
     // The first card of a block is counted by the block.
     if (entry.card < 0 && entry.entries.front().card >= 0) {
       find_entries(entry.entries);
-      if (entry.entries.front().run == LayoutEntry::Run::once)
-        entry_of_[static_cast<std::size_t>(entry.entries.front().card)] = &entry;
+      if (entry.entries.front().run == LayoutEntry::Run::once) entry_of_[entry.entries.front().card] = &entry;
     } else {
       find_entries(entry.entries);
     }
@@ -101,7 +100,7 @@ void DeckReader::read_entries(const std::vector<LayoutEntry>& entries, int owner
     if (stopped_ || end_run_) return;
     if (entry.made_from >= 0) continue;  // stands behind its card
     read_entry(entry, owner);
-    if (entry.opens && entry.card >= 0) owner = latest_[static_cast<std::size_t>(entry.card)];
+    if (entry.opens && entry.card >= 0) owner = latest_[entry.card];
   }
 }
 
@@ -307,7 +306,7 @@ bool DeckReader::ends_plainly(std::size_t last_field_end) const {
 
 // The short way, for a card of plain numbers; false, and nothing has happened, where the long one is needed.
 bool DeckReader::read_plainly(Card card) {
-  const std::optional<PlainCard>& plain = plain_cards_[static_cast<std::size_t>(card.spec)];
+  const std::optional<PlainCard>& plain = plain_cards_[card.spec];
   const auto rule = static_cast<std::size_t>(card.spec);
   if (!plain || !followers_[rule].empty() || !records_.next()) return false;
   card.line = records_.line();
@@ -377,8 +376,7 @@ bool DeckReader::read_items(const CardRule& rule, ListRead& read) {
   int count = 0;
   const CardRule& item = rule_of(rule.items_card);
   if (!count_of(rule.items_count, item.spec.label + " items", count)) return true;
-  const int owner =
-      latest_[static_cast<std::size_t>(&rule - layout_.cards.data())];  // others may be made behind it
+  const int owner = latest_[&rule - layout_.cards.data()];  // others may be made behind it
   if (!fits_the_file(count, true)) {
     fail_and_stop(log_.line(records_.line()), std::to_string(count) + " " + item.spec.label +
                                                   " items can't be in a deck of " +

@@ -156,7 +156,7 @@ class DeckReader : private ExpressionScope {
   bool fits_the_file(int count, bool repeats) const;
   void check_after_end();
   std::string card_name(const LayoutEntry& entry) const;
-  const CardRule& rule_of(int index) const { return layout_.cards[static_cast<std::size_t>(index)]; }
+  const CardRule& rule_of(int index) const { return layout_.cards[index]; }
 
   const SourceText& source_;
   const Layout& layout_;

@@ -90,7 +90,7 @@ void DeckReader::check_values(const CardRule& rule, const Card& card) {
                "a value is missing " + field_text(rule, spec));
       mark_faulty(i);
     }
-    if (plain_[static_cast<std::size_t>(card.spec)] || spec.computed) continue;
+    if (plain_[card.spec] || spec.computed) continue;
     if (!rule.rules[i].map.empty()) apply_map(rule, i, value);
     if (rule.rules[i].restricted()) check_allowed(rule, i, i);
     const std::string& wanted = rule.rules[i].must_equal;
@@ -179,8 +179,8 @@ void DeckReader::note_blanks() {
     if (any) blanks[s].resize(fields.size());
   }
   for (const Card& card : deck_.cards) {
-    std::vector<Blanks>& of_card = blanks[static_cast<std::size_t>(card.spec)];
-    const auto& fields = deck_.specs[static_cast<std::size_t>(card.spec)].fields;
+    std::vector<Blanks>& of_card = blanks[card.spec];
+    const auto& fields = deck_.specs[card.spec].fields;
     const auto count = static_cast<std::size_t>(card.value_count);
     const std::size_t looked_at = card.first_place < 0 ? of_card.size() : std::min(of_card.size(), count);
     for (std::size_t i = 0; i < looked_at; ++i) {

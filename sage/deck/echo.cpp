@@ -62,7 +62,7 @@ void echo(const Deck& deck, std::ostream& out) {
   out << deck.file << ", layout " << deck.layout << '\n';
   int shown_line = 0, shown_spec = -1;
   for (const Card& card : deck.cards) {
-    const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+    const CardSpec& spec = deck.specs[card.spec];
     if (spec.made) {
       out << "    + " << spec.name << (spec.label != spec.name ? " [" + spec.label + "]" : "") << ", made:\n";
       echo_values(spec, deck.values(card), out);

@@ -202,7 +202,7 @@ const char* read_plain_real(const char* at, const char* end, int decimals, doubl
   if (behind_point == nullptr && decimals > 0) return nullptr;
   const std::ptrdiff_t power = behind_point == nullptr ? 0 : at - behind_point;
   const double number = static_cast<double>(digits);
-  const double magnitude = power == 0 ? number : number / powers[static_cast<std::size_t>(power)];
+  const double magnitude = power == 0 ? number : number / powers[power];
   value = negative ? -magnitude : magnitude;
   return at;
 }

@@ -13,7 +13,7 @@ constexpr double max_unrolled = 1e6;  // steps of one pass: keeps a silly FORMAT
 double unrolled_steps(const std::vector<FormatStep>& steps, int begin, int end) {
   double total = 0.0;
   for (int i = begin; i < end; ++i) {
-    const FormatStep& step = steps[static_cast<std::size_t>(i)];
+    const FormatStep& step = steps[i];
     ++total;
     if (step.edit != Edit::group_begin) continue;
     const bool unlimited = step.repeat == std::numeric_limits<int>::max();

@@ -109,7 +109,7 @@ void add_overview(const Layout& layout, const std::vector<LayoutEntry>& entries,
       add_overview(layout, entry.entries, depth + 1, page);
       continue;
     }
-    const CardRule& card = layout.cards[static_cast<std::size_t>(entry.card)];
+    const CardRule& card = layout.cards[entry.card];
     page.item("`" + card.key + "`, " + run_text(entry) +
                   (entry.headings > 0 ? ", below " + std::to_string(entry.headings) + " heading line(s)" : ""),
               depth);
@@ -120,7 +120,7 @@ void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, Pa
   for (const LayoutEntry& entry : entries) {
     add_cards(layout, entry.entries, page);
     if (entry.card < 0) continue;
-    const CardRule& card = layout.cards[static_cast<std::size_t>(entry.card)];
+    const CardRule& card = layout.cards[entry.card];
     page.heading(3, card.key + (card.spec.name != card.key ? " (`" + card.spec.name + "`)" : ""));
     if (!card.about.empty()) page.paragraph(card.about);
     page.paragraph((card.list_directed ? std::string("List-directed")
@@ -129,7 +129,7 @@ void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, Pa
                    ", " + run_text(entry) + ".");
     if (!card.spec.fields.empty()) add_fields(card, page);
     if (card.items_card < 0) continue;
-    const CardRule& item = layout.cards[static_cast<std::size_t>(card.items_card)];
+    const CardRule& item = layout.cards[card.items_card];
     page.paragraph("Then, in the same READ, `" + card.items_count.source + "` times (`" + item.spec.name +
                    "`):");
     add_fields(item, page);

@@ -262,7 +262,7 @@ class NameCheck {
     return std::find(names.begin(), names.end(), name) != names.end() ||
            (meaning && meaning->name == "element" && family_ == "sage1" && is_node_name(name));
   }
-  const CardRule& rule(int card) const { return layout_.cards[static_cast<std::size_t>(card)]; }
+  const CardRule& rule(int card) const { return layout_.cards[card]; }
   bool has_card(std::string_view name) const {
     return std::any_of(layout_.cards.begin(), layout_.cards.end(),
                        [&](const CardRule& c) { return c.spec.name == name; });
@@ -312,15 +312,14 @@ class NameCheck {
   // A card made from another belongs to it if that opens, otherwise to what that belongs to.
   int owner_of(const LayoutEntry& entry, int owner) const {
     if (entry.made_from < 0) return owner;
-    return opening_.contains(entry.made_from) ? entry.made_from
-                                              : owners_[static_cast<std::size_t>(entry.made_from)];
+    return opening_.contains(entry.made_from) ? entry.made_from : owners_[entry.made_from];
   }
   void find_owners(const std::vector<LayoutEntry>& entries, int owner) {
     for (const LayoutEntry& entry : entries) {
       if (entry.card >= 0) {
-        owners_[static_cast<std::size_t>(entry.card)] = owner_of(entry, owner);
+        owners_[entry.card] = owner_of(entry, owner);
         const int item = rule(entry.card).items_card;
-        if (item >= 0) owners_[static_cast<std::size_t>(item)] = entry.opens ? entry.card : owner;
+        if (item >= 0) owners_[item] = entry.opens ? entry.card : owner;
       }
       find_owners(entry.entries, owner);
       if (!entry.opens || entry.card < 0) continue;
@@ -334,7 +333,7 @@ class NameCheck {
   }
 
   bool is_used(int card, int field) const {
-    const FieldRule& one = rule(card).rules[static_cast<std::size_t>(field)];
+    const FieldRule& one = rule(card).rules[field];
     return one.ignored || in_expressions_.contains({card, field}) || !one.must_equal.empty() ||
            one.allowed.size() + one.allowed_texts.size() == 1;  // checked, and then it says nothing more
   }
@@ -389,7 +388,7 @@ class NameCheck {
     if (meaning.owner.empty()) return;
     const bool marked = meaning.owner[0] == '?' || meaning.owner[0] == '!';
     const std::string wanted(meaning.owner.substr(marked ? 1 : 0));
-    const int owner = owners_[static_cast<std::size_t>(index)];
+    const int owner = owners_[index];
     // Where the layout has no such card, what belongs to another stands on its own.
     if (marked && !has_card(wanted)) return;
     if (meaning.owner[0] == '?' && (owner < 0 || rule(index).is_item)) return;

@@ -175,8 +175,7 @@ class LayoutReader : private TomlFile {
       if (inner.opens && inner.made_from < 0 && (inner.card < 0 || inner.run != LayoutEntry::Run::once))
         fail(table, "the card that opens a block must be a single card");
     const int first = entry.entries.front().card;
-    if (entry.run == LayoutEntry::Run::named &&
-        (first < 0 || layout_.cards[static_cast<std::size_t>(first)].spec.made))
+    if (entry.run == LayoutEntry::Run::named && (first < 0 || layout_.cards[first].spec.made))
       fail(table, "a block repeated by name must begin with a card that is read");
   }
 
@@ -316,9 +315,7 @@ class LayoutReader : private TomlFile {
     if (values.size() != 1 || values[0].nodes.size() != 1) return;
     const ExpressionNode& node = values[0].nodes[0];
     if (node.kind != ExpressionNode::Kind::field || node.card == bare_card_) return;
-    spec.label = layout_.cards[static_cast<std::size_t>(node.card)]
-                     .spec.fields[static_cast<std::size_t>(node.field)]
-                     .label;
+    spec.label = layout_.cards[node.card].spec.fields[node.field].label;
   }
 
   void read_value(const toml::table& field, CardRule& card, std::size_t i) {
@@ -461,7 +458,7 @@ class LayoutReader : private TomlFile {
     if (!items->contains("count")) fail(*node, "items need a count");
     const int item = read_card(*items, true);
     bare_card_ = index;
-    CardRule& card = layout_.cards[static_cast<std::size_t>(index)];
+    CardRule& card = layout_.cards[index];
     card.items_card = item;
     card.items_count = expression(*items, "count", -1);
   }
@@ -500,16 +497,15 @@ class LayoutReader : private TomlFile {
 
   // Place of a field that has its value by now; -1 = the card has none of this name.
   int field_place(int card, std::string_view name) const {
-    const auto& fields = layout_.cards[static_cast<std::size_t>(card)].spec.fields;
+    const auto& fields = layout_.cards[card].spec.fields;
     for (std::size_t i = 0; i < fields.size(); ++i)
       if (fields[i].name == name) return static_cast<int>(i);
     return -1;
   }
   // A computed field of the card being read whose turn has not come.
   bool is_later(int card, int field) const {
-    const CardRule& rule = layout_.cards[static_cast<std::size_t>(card)];
-    return card == bare_card_ && reads_values_ && rule.spec.fields[static_cast<std::size_t>(field)].computed &&
-           field >= computed_field_;
+    const CardRule& rule = layout_.cards[card];
+    return card == bare_card_ && reads_values_ && rule.spec.fields[field].computed && field >= computed_field_;
   }
 
   std::string near_card(std::string_view card) const {
@@ -538,7 +534,7 @@ class LayoutReader : private TomlFile {
         place = of_source;
       }
     }
-    const CardRule& rule = layout_.cards[static_cast<std::size_t>(index)];
+    const CardRule& rule = layout_.cards[index];
     if (place < 0)
       throw ExpressionError("card \"" + rule.key + "\" has no field \"" + std::string(field) + "\"" +
                             near_field(rule, field));
@@ -547,8 +543,7 @@ class LayoutReader : private TomlFile {
                             "\" is computed later than this");
     found.card = index;
     found.field = place;
-    found.words = rule.spec.fields[static_cast<std::size_t>(place)].kind == FieldKind::text &&
-                  rule.rules[static_cast<std::size_t>(place)].map.empty();
+    found.words = rule.spec.fields[place].kind == FieldKind::text && rule.rules[place].map.empty();
   }
 
   const toml::table& root_;

@@ -55,8 +55,7 @@ std::string moved(std::string_view line, std::size_t word, int columns, bool who
 
 bool DeckReader::is_doubtful_line(const CardRule& rule, int line) const {
   for (const FieldFlaw& flaw : flaws_)
-    if (fields_[static_cast<std::size_t>(flaw.value)].line == line &&
-        (flaw.fault != FieldFault::none || (flaw.hints & hint_inner_blank)))
+    if (fields_[flaw.value].line == line && (flaw.fault != FieldFault::none || (flaw.hints & hint_inner_blank)))
       return true;
   const std::size_t count = std::min(fields_.size(), rule.rules.size());
   for (std::size_t i = 0; i < count; ++i)

@@ -59,7 +59,7 @@ class SlipSearch {
   }
 
  private:
-  const FieldValue& value(const Seam& seam) const { return values_[static_cast<std::size_t>(seam.value)]; }
+  const FieldValue& value(const Seam& seam) const { return values_[seam.value]; }
   const FieldSpec& spec(const Seam& seam) const { return spec(seam.value); }
   const FieldSpec& spec(int index) const {
     return spec_.fields[std::min(static_cast<std::size_t>(index), spec_.fields.size() - 1)];
@@ -101,7 +101,7 @@ class SlipSearch {
   // Some field of the card holds this column (tabs may go back).
   bool is_read(int line, std::size_t column) const {
     for (int index = first_read(); index < end(); index = next_read(index)) {
-      const FieldValue& v = values_[static_cast<std::size_t>(index)];
+      const FieldValue& v = values_[index];
       if (v.line == line && v.first_column <= column && column <= v.last_column) return true;
     }
     return false;
@@ -124,7 +124,7 @@ class SlipSearch {
   // Every number of the card begins in the first column of its field.
   bool all_begin_fields(FieldKind kind) const {
     for (int index = first_read(); index < end(); index = next_read(index)) {
-      const FieldValue& v = values_[static_cast<std::size_t>(index)];
+      const FieldValue& v = values_[index];
       if (!v.blank && v.kind == kind && v.text.front() == ' ') return false;
     }
     return true;
@@ -134,7 +134,7 @@ class SlipSearch {
   bool is_left_justified(const Seam& slipped) const {
     const FieldKind kind = value(slipped).kind;
     for (int index = first_read(); index < end(); index = next_read(index)) {
-      const FieldValue& v = values_[static_cast<std::size_t>(index)];
+      const FieldValue& v = values_[index];
       if (index == slipped.value || v.blank || v.kind != kind || v.text.front() == ' ' || v.text.back() != ' ')
         continue;
       if (next_read(index) < slipped.value || v.text[1] != ' ') return true;
@@ -185,7 +185,7 @@ class SlipSearch {
     const FieldValue& v = value(seam);
     int index = seam.value - 1;
     while (spec(index).computed) --index;
-    const FieldValue& before = values_[static_cast<std::size_t>(index)];
+    const FieldValue& before = values_[index];
     const bool left_by_it = before.blank && before.kind != FieldKind::text && before.line == v.line &&
                             before.last_column + 1 == v.first_column;
     return left_by_it && !is_left_justified(seam);

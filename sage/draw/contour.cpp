@@ -62,7 +62,7 @@ void append_path(std::string& path, const std::vector<Corner>& polygon) {
 
 std::vector<Corner> polygon_of(const Patch& patch, const std::vector<int>& indices) {
   std::vector<Corner> polygon;
-  for (int i : indices) polygon.push_back(patch.places[static_cast<std::size_t>(i)]);
+  for (int i : indices) polygon.push_back(patch.places[i]);
   return polygon;
 }
 
@@ -70,21 +70,20 @@ namespace {
 
 // As append_path(path, polygon_of(patch, indices)), without the polygon.
 void append_places(std::string& path, const Patch& patch, const std::vector<int>& indices) {
-  append_closed(path, indices.size(), [&](std::size_t i) -> const Vector2& {
-    return patch.places[static_cast<std::size_t>(indices[i])].at;
-  });
+  append_closed(path, indices.size(),
+                [&](std::size_t i) -> const Vector2& { return patch.places[indices[i]].at; });
 }
 
 // The part of a cell where value >= limit: whole where it can be, else triangle by triangle.
 void append_above(std::string& path, const Patch& patch, const GridCell& cell, double limit) {
   if (cell.centre < 0) return append_path(path, above(polygon_of(patch, cell.corners), limit));
-  const auto is_above = [&](int i) { return patch.places[static_cast<std::size_t>(i)].value >= limit; };
+  const auto is_above = [&](int i) { return patch.places[i].value >= limit; };
   const auto count = std::ranges::count_if(cell.corners, is_above) + (is_above(cell.centre) ? 1 : 0);
   if (count == 0) return;
   if (count == static_cast<std::ptrdiff_t>(cell.corners.size()) + 1)
     return append_places(path, patch, cell.corners);
   const std::vector<Corner> polygon = polygon_of(patch, cell.corners);
-  const Corner& centre = patch.places[static_cast<std::size_t>(cell.centre)];
+  const Corner& centre = patch.places[cell.centre];
   for (std::size_t i = 0; i < polygon.size(); ++i)
     append_path(path, above({polygon[i], polygon[(i + 1) % polygon.size()], centre}, limit));
 }
@@ -106,11 +105,9 @@ void append_crossing(std::string& path, const std::array<const Corner*, 3>& tria
 }
 
 void append_crossings(std::string& path, const Patch& patch, const GridCell& cell, double limit) {
-  const auto corner = [&](std::size_t i) {
-    return &patch.places[static_cast<std::size_t>(cell.corners[i % cell.corners.size()])];
-  };
+  const auto corner = [&](std::size_t i) { return &patch.places[cell.corners[i % cell.corners.size()]]; };
   if (cell.centre < 0) return append_crossing(path, {corner(0), corner(1), corner(2)}, limit);
-  const Corner* const centre = &patch.places[static_cast<std::size_t>(cell.centre)];
+  const Corner* const centre = &patch.places[cell.centre];
   for (std::size_t i = 0; i < cell.corners.size(); ++i)
     append_crossing(path, {corner(i), corner(i + 1), centre}, limit);
 }
@@ -153,7 +150,7 @@ std::vector<Side> by_low(const std::vector<Side>& sides, std::vector<std::size_t
   for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
   std::vector<std::size_t> next(first);
   std::vector<Side> sorted(sides.size());
-  for (const Side& side : sides) sorted[next[static_cast<std::size_t>(side.low())]++] = side;
+  for (const Side& side : sides) sorted[next[side.low()]++] = side;
   return sorted;
 }
 
@@ -167,7 +164,7 @@ std::vector<std::vector<Side>> region_sides(const std::vector<Side>& sides, std:
       int beyond = -1;
       for (std::size_t j = first[node]; j < first[node + 1]; ++j)
         if (all[j].from == all[i].to && all[j].to == all[i].from) beyond = all[j].band;
-      if (beyond != all[i].band) ends[static_cast<std::size_t>(all[i].band)].push_back(all[i]);
+      if (beyond != all[i].band) ends[all[i].band].push_back(all[i]);
     }
   return ends;
 }

@@ -97,11 +97,11 @@ void draw_outline(std::string& out, Scenery& scenery) {
   const SolidEdges edges(model, [&](std::size_t g) { return scenery.draws(g, ElementKind::solid); });
   edges.for_single([&](int node, const SolidEdge& edge) {
     if (on_seam(node) && on_seam(edge.other)) return;
-    const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+    const Group& group = model.groups[edge.group];
     const Eigen::Matrix2Xd nodes = scenery.nodes_of(group, edge.element, 0.0);
     const SubGrid& grid = grid_for(scenery, group, nodes);
     std::string path;
-    append_line(path, nodes * grid.N(grid.edges[static_cast<std::size_t>(edge.local)], Eigen::all).transpose());
+    append_line(path, nodes * grid.N(grid.edges[edge.local], Eigen::all).transpose());
     fmt::format_to(std::back_inserter(out), "<path d=\"{}\"/>\n", path);
   });
   out += "</g>\n";
@@ -256,7 +256,7 @@ void append_values(std::vector<Weighted>& values, const std::vector<Patch>& all)
     double twice = 0.0;
     const std::vector<int>& outline = patch.grid->outline;
     const auto place = [&](std::size_t i) -> const Vector2& {
-      return patch.places[static_cast<std::size_t>(outline[i < outline.size() ? i : 0])].at;
+      return patch.places[outline[i < outline.size() ? i : 0]].at;
     };
     for (std::size_t i = 0; i < outline.size(); ++i) {
       const Vector2 &a = place(i), &b = place(i + 1);
@@ -446,7 +446,7 @@ bool turns_sign(const FieldChoice& field, const PictureOptions& options) {
   const FieldEntry& entry = *field.entry;
   if (!options.mirror_left && !options.mirror_down) return false;
   if (field.component < 0 || entry.shape == FieldShape::numbers) return entry.of_mean;  // directions
-  const std::string& name = entry.components[static_cast<std::size_t>(field.component)].name;
+  const std::string& name = entry.components[field.component].name;
   return name == "xy" || (name == "x" && options.mirror_left) || (name == "y" && options.mirror_down);
 }
 

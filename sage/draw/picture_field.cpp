@@ -91,7 +91,7 @@ std::string unknown_field(const FieldTable& table, std::string_view name, bool p
 
 FieldChoice picture_field(const FieldTable& table, std::string_view name) {
   std::string_view field = name == kFlowNet ? "head" : name;
-  if (is_envelope(name)) field = kEndQuantities[static_cast<std::size_t>(diagram_of(name))];
+  if (is_envelope(name)) field = kEndQuantities[diagram_of(name)];
   const std::optional<FieldChoice> choice = table.choose(field);
   const FieldPlace place = choice ? choice->entry->place() : FieldPlace::increment;
   if (place == FieldPlace::node || place == FieldPlace::point) return *choice;
@@ -115,8 +115,7 @@ FieldParts field_parts(const Model& model, const Solution& s, const NodalLayout&
   if (field.place() == FieldPlace::node) {
     parts.at.resize(parts.components, entries);
     const NodeViews nodes(model, s);
-    for (Eigen::Index e = 0; e < entries; ++e)
-      carry(field, nodes.at(layout.node[static_cast<std::size_t>(e)]), parts.at.col(e).data());
+    for (Eigen::Index e = 0; e < entries; ++e) carry(field, nodes.at(layout.node[e]), parts.at.col(e).data());
     fill_between_corners(model, layout, parts.at);
   } else {
     const std::vector<double> values = nodal_average(model, s, layout, {&field}, rule);

@@ -165,8 +165,7 @@ void draw_marker(std::string& out, double x, double y, const LineStyle& style) {
   fmt::format_to(std::back_inserter(out),
                  "<path transform=\"translate({:.1f} {:.1f})\" d=\"{}\" fill=\"{}\" stroke=\"{}\" "
                  "stroke-width=\"1.5\"/>\n",
-                 x, y, kShapes[static_cast<std::size_t>(style.marker)], hollow ? "#ffffff" : style.colour,
-                 style.colour);
+                 x, y, kShapes[style.marker], hollow ? "#ffffff" : style.colour, style.colour);
 }
 
 std::string dashes_of(const PlotSeries& series, const LineStyle& style) {

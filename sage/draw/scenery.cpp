@@ -78,7 +78,7 @@ const SubGrid& grid_for(Scenery& scenery, const Group& group, const Eigen::Matri
   const bool triangle = group.entry->triangle();
   const auto& parents = group.entry->parent_nodes;
   for (const std::vector<int>& edge : element.edges()) {
-    const auto &a = parents[static_cast<std::size_t>(edge[0])], &b = parents[static_cast<std::size_t>(edge[1])];
+    const auto &a = parents[edge[0]], &b = parents[edge[1]];
     double& side = longest[triangle || a[1] == b[1] ? 0 : 1];
     side = std::max(side, (nodes.col(edge[0]) - nodes.col(edge[1])).norm());
   }
@@ -129,7 +129,7 @@ Patch tiny_patch(Scenery& scenery, const Group& group, int e, const int* entry, 
   patch.places.reserve(edges.size());
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const int corner = edges[k][0];
-    patch.places.push_back({nodes.col(corner), numbers[static_cast<std::size_t>(entry[corner])]});
+    patch.places.push_back({nodes.col(corner), numbers[entry[corner]]});
     patch.nodes[k] = group.nodes_of(e)[corner];
   }
   return patch;
@@ -173,7 +173,7 @@ std::vector<Patch> patches(Scenery& scenery) {
       places.noalias() = nodes * grid.N.transpose();
       parts.noalias() = at_nodes * grid.N.transpose();
       Patch& patch = result.emplace_back(Patch{&grid.cells, {}});
-      patch.places.reserve(static_cast<std::size_t>(places.cols()));
+      patch.places.reserve(places.cols());
       for (Eigen::Index p = 0; p < places.cols(); ++p)
         patch.places.push_back(
             {places.col(p), field_number(scenery.field, scenery.parts, parts.col(p).data())});

@@ -17,7 +17,7 @@ class Places {
         index_(static_cast<std::size_t>((cells_[0] + 1) * (cells_[1] + 1)), -1) {}
 
   int at(int i, int j) {
-    int& index = index_[static_cast<std::size_t>(j * (cells_[0] + 1) + i)];
+    int& index = index_[j * (cells_[0] + 1) + i];
     if (index < 0) index = add(parent(i, j));
     return index;
   }
@@ -86,9 +86,7 @@ SubGrid sub_grid(const Group& group, int along_xi, int along_eta) {
   Places places(triangle, along_xi, along_eta);
   SubGrid grid;
   for (const std::vector<int>& edge : edges) {
-    const auto corner = [&](std::size_t end) {
-      return places.grid_of(nodes[static_cast<std::size_t>(edge[end])]);
-    };
+    const auto corner = [&](std::size_t end) { return places.grid_of(nodes[edge[end]]); };
     grid.edges.push_back(edge_places(places, corner(0), corner(1)));
     const std::vector<int>& along = grid.edges.back();
     grid.cells.outline.insert(grid.cells.outline.end(), along.begin(), along.end() - 1);
@@ -97,7 +95,7 @@ SubGrid sub_grid(const Group& group, int along_xi, int along_eta) {
 
   const auto count = static_cast<Eigen::Index>(nodes.size());
   std::vector<double> N(nodes.size()), dN(2 * nodes.size());
-  grid.N.resize(static_cast<Eigen::Index>(places.all().size()), count);
+  grid.N.resize(places.all().size(), count);
   for (std::size_t p = 0; p < places.all().size(); ++p) {
     element.shape_functions(places.all()[p], N, dN);
     grid.N.row(static_cast<Eigen::Index>(p)) = Eigen::Map<const Eigen::RowVectorXd>(N.data(), count);

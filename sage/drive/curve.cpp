@@ -86,7 +86,7 @@ Vector<N> target_of(const Leg& leg, double share, const Vector<N>& eps, const Ve
                     const PointDriver<N>& point) {
   Vector<N> target;
   for (int i = 0; i < N; ++i) {
-    const Goal& goal = leg.goals[static_cast<std::size_t>(i)];
+    const Goal& goal = leg.goals[i];
     const double end = std::isnan(goal.value) ? eps[i] : turned(goal.value);
     target[i] = goal.control == Control::strain ? eps[i] + share * (end - eps[i]) - point.eps()[i]
                                                 : sigma[i] + share * (end - sigma[i]);
@@ -153,7 +153,7 @@ std::vector<double> first_history(const Law<N>& law, const std::vector<FirstValu
                        fmt::format("the law has no history variable {}; it has {}", one.name,
                                    known.empty() ? "none" : known));
     }
-    values[static_cast<std::size_t>(found - quantities.begin())] = inward(*found, one.value);
+    values[found - quantities.begin()] = inward(*found, one.value);
   }
   return values;
 }
@@ -163,7 +163,7 @@ Curve follow_law(const Law<N>& law, const UnitSystem& units, const Path& path) {
   if (path.start.size() != N)
     throw InputError("S650", {}, fmt::format("the path has {} components, the law {}", path.start.size(), N));
   Vector<N> start;
-  for (int i = 0; i < N; ++i) start[i] = turned(path.start[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < N; ++i) start[i] = turned(path.start[i]);
   Curve curve;
   Rows rows(curve, units);
   const std::vector<double> history = first_history<N>(law, path.history);

@@ -159,7 +159,7 @@ class Comparison {
 Subject with_values(const FitProblem& problem, const Eigen::VectorXd& values) {
   Subject subject = problem.subject;
   for (std::size_t k = 0; k < problem.free.size(); ++k)
-    subject.values[static_cast<std::size_t>(problem.free[k].place)] = values[static_cast<Eigen::Index>(k)];
+    subject.values[problem.free[k].place] = values[static_cast<Eigen::Index>(k)];
   return subject;
 }
 
@@ -247,8 +247,8 @@ void estimate_errors(const FitProblem& problem, const Eigen::MatrixXd& J,
       // A small share takes part too where its own influence is no rounding: others make up for it.
       const bool takes_part = std::abs(V(i, k)) * J.col(i).norm() > kUndetermined * size[0];
       if (std::abs(V(i, k)) < kNamed && !takes_part) continue;
-      unknown[static_cast<std::size_t>(i)] = true;
-      combination.names.push_back(problem.free[static_cast<std::size_t>(i)].name);
+      unknown[i] = true;
+      combination.names.push_back(problem.free[i].name);
       combination.shares.push_back(V(i, k));
     }
     result.undetermined.push_back(combination);
@@ -266,7 +266,7 @@ void estimate_errors(const FitProblem& problem, const Eigen::MatrixXd& J,
     result.high.push_back(result.values[at] + student(freedom) * error);
     for (Eigen::Index j = 0; j < n; ++j) {
       if (i == j) continue;
-      const bool both = !unknown[at] && !unknown[static_cast<std::size_t>(j)];
+      const bool both = !unknown[at] && !unknown[j];
       result.correlation(i, j) = both ? covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j))
                                       : std::numeric_limits<double>::quiet_NaN();
     }
@@ -304,12 +304,12 @@ FreeParameter free_parameter_from(const Subject& subject, std::string_view text)
   parameter.place = parameter_place(*subject.entry, key);
   if (parameter.place < 0)
     throw InputError("S660", {}, fmt::format("{} has no parameter {}", subject.entry->name, key));
-  const Parameter& row = subject.entry->parameters[static_cast<std::size_t>(parameter.place)];
+  const Parameter& row = subject.entry->parameters[parameter.place];
   parameter.name = row.name;
   if (row.dimension == Dimension::angle) parameter.low = 0.0, parameter.high = kHighestAngle;
   if (row.role == ParameterRole::poissons_ratio) parameter.low = 0.0, parameter.high = kHighestRatio;
   const bool stress = row.dimension == Dimension::stress || row.dimension == Dimension::stress_per_length;
-  const double value = subject.values[static_cast<std::size_t>(parameter.place)];
+  const double value = subject.values[parameter.place];
   if (stress && value >= 0.0) parameter.low = 0.0;
   if (equals < text.size()) {
     const std::string bounds(text.substr(equals + 1));
@@ -360,7 +360,7 @@ FitResult fit(const FitProblem& problem) {
   expect_answer(problem, comparison);
   std::vector<Variable> variables;
   for (const FreeParameter& parameter : problem.free)
-    variables.emplace_back(parameter, problem.subject.values[static_cast<std::size_t>(parameter.place)]);
+    variables.emplace_back(parameter, problem.subject.values[parameter.place]);
   Functor functor(problem, comparison, variables);
   Eigen::VectorXd x = functor.start();
   Eigen::LevenbergMarquardt<Functor> search(functor);

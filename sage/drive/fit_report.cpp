@@ -18,7 +18,7 @@ void append_parameters(std::string& text, const FitProblem& problem, const FitRe
                       "95 % confidence");
   for (std::size_t k = 0; k < problem.free.size(); ++k) {
     const FreeParameter& parameter = problem.free[k];
-    const double start = problem.subject.values[static_cast<std::size_t>(parameter.place)];
+    const double start = problem.subject.values[parameter.place];
     text += fmt::format("{:<24} {:>12.6g} {:>14.8g} ", parameter.name, start, result.values[k]);
     if (result.at_bound[k])
       text += fmt::format("{:>12}   at its bound ({:g} to {:g})\n", "-", parameter.low, parameter.high);

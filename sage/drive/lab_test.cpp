@@ -87,7 +87,7 @@ std::string_view strain_column(int law_size, int component) {
 }
 
 std::string_view driven_column(const LabTest& test) {
-  const bool stress = test.drained[static_cast<std::size_t>(test.driven)] == 'p';
+  const bool stress = test.drained[test.driven] == 'p';
   return stress ? stress_column(test.law_size, test.driven) : strain_column(test.law_size, test.driven);
 }
 

@@ -106,12 +106,12 @@ void close_volume(std::vector<Leg>& legs, int closing) {
     double sum = 0.0;
     for (int i = 0; i < 3; ++i) {
       if (i == closing) continue;
-      const double value = leg.goals[static_cast<std::size_t>(i)].value;
-      double& known = strain[static_cast<std::size_t>(i)];
+      const double value = leg.goals[i].value;
+      double& known = strain[i];
       if (!std::isnan(value)) known = value;
       sum += known;
     }
-    leg.goals[static_cast<std::size_t>(closing)] = {Control::strain, -sum};
+    leg.goals[closing] = {Control::strain, -sum};
   }
 }
 

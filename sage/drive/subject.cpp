@@ -112,7 +112,7 @@ void apply(Subject& subject, const Setting& setting, const SourcePosition& where
                      fmt::format("{} has no parameter {}; it has {} (and E, nu, c, phi, psi for short; "
                                  "pressure and history.NAME are those of the start)",
                                  subject.entry->name, setting.key, parameter_names(*subject.entry)));
-  subject.values[static_cast<std::size_t>(place)] = value;
+  subject.values[place] = value;
 }
 
 void expect_whole(const Subject& subject, const SourcePosition& where) {

@@ -29,7 +29,7 @@ std::array<Extent, 3> extents(const ForeignMesh& mesh) {
     if (block.shape.dimension != 2) continue;
     for (const ForeignMeshElement& element : block.elements)
       for (const int node : element.nodes) {
-        const std::array<double, 3>& at = places[static_cast<std::size_t>(node)];
+        const std::array<double, 3>& at = places[node];
         for (std::size_t c = 0; c < 3; ++c)
           all[c] =
               first ? Extent{at[c], at[c]} : Extent{std::min(all[c].low, at[c]), std::max(all[c].high, at[c])};

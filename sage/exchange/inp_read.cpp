@@ -384,8 +384,7 @@ class InpReader {
       const ElementEntry* entry = read_[e].type.shape.element;
       if (entry == nullptr || entry->calculix.nodes.empty()) continue;
       const std::vector<int> given = element.nodes;
-      for (std::size_t i = 0; i < given.size(); ++i)
-        element.nodes[static_cast<std::size_t>(entry->calculix.nodes[i])] = given[i];
+      for (std::size_t i = 0; i < given.size(); ++i) element.nodes[entry->calculix.nodes[i]] = given[i];
     }
   }
 

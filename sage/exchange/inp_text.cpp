@@ -63,7 +63,7 @@ class InpWriter {
       diagnostics_.add(
           {Severity::note, "S721", {model_.file, 0, 0, 0}, "the choice of the solver is left to CalculiX", {}});
   }
-  int number(int node) const { return model_.mesh.number[static_cast<std::size_t>(node)]; }
+  int number(int node) const { return model_.mesh.number[node]; }
 
   void heading() {
     text_ += "*HEADING\n" + model_.title + "\n";
@@ -93,7 +93,7 @@ class InpWriter {
       if (!group.name.empty()) text_ += "** group " + std::to_string(group.number) + " " + group.name + "\n";
       text_ += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", type, set_name(group, g));
       for (int e = 0; e < group.elements(); ++e) {
-        text_ += std::to_string(group.element_numbers[static_cast<std::size_t>(e)]);
+        text_ += std::to_string(group.element_numbers[e]);
         for (int i : order) text_ += ", " + std::to_string(number(group.nodes_of(e)[i]));
         text_ += '\n';
       }
@@ -271,14 +271,14 @@ class InpWriter {
     }
     int uneven = 0, shear = 0, missing = 0;
     for (const EdgeLoad& load : stage.pressures) {
-      const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
-      if (!written_[static_cast<std::size_t>(load.group)]) {
+      const Group& group = model_.groups[load.group];
+      if (!written_[load.group]) {
         ++missing;
         continue;
       }
       if (load.normal[0] != load.normal[1]) ++uneven;
       if (load.shear.norm() > 0.0) ++shear;
-      const int element = group.element_numbers[static_cast<std::size_t>(load.element)];
+      const int element = group.element_numbers[load.element];
       double& total = pressure_[{element, load.edge}];
       total += load.normal.mean();
       text_ += fmt::format("{}, P{}, {}\n", element, load.edge + 1, total);

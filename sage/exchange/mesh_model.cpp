@@ -35,8 +35,7 @@ void turn_round(std::vector<int>& nodes, const ElementEntry& entry) {
 double twice_area(const Mesh& mesh, const std::vector<int>& nodes, int corners) {
   double sum = 0.0;
   for (int i = 0; i < corners; ++i) {
-    const auto a = mesh.x.col(nodes[static_cast<std::size_t>(i)]),
-               b = mesh.x.col(nodes[static_cast<std::size_t>((i + 1) % corners)]);
+    const auto a = mesh.x.col(nodes[i]), b = mesh.x.col(nodes[(i + 1) % corners]);
     sum += a.x() * b.y() - b.x() * a.y();
   }
   return sum;
@@ -118,7 +117,7 @@ class Skeleton {
     for (const MeshBlock& block : mesh_.blocks)
       if (block.shape.dimension > 0)
         for (const ForeignMeshElement& element : block.elements)
-          for (const int node : element.nodes) used[static_cast<std::size_t>(node)] = 1;
+          for (const int node : element.nodes) used[node] = 1;
     std::vector<int> moved(used.size(), -1), dropped;
     int next = 0;
     std::size_t at = 0;
@@ -141,7 +140,7 @@ class Skeleton {
                         shown < dropped.size() ? ", ..." : ""));
   }
   static void renumber(std::vector<int>& nodes, const std::vector<int>& moved) {
-    for (int& node : nodes) node = moved[static_cast<std::size_t>(node)];
+    for (int& node : nodes) node = moved[node];
     std::erase(nodes, -1);
   }
 
@@ -213,17 +212,16 @@ class Skeleton {
       largest_ = std::max(largest_, element.number);
       const auto& edges = target.element->edges();
       for (std::size_t i = 0; i < edges.size(); ++i) {
-        EdgeOfMesh& edge = edge_of_[std::minmax(nodes[static_cast<std::size_t>(edges[i][0])],
-                                                nodes[static_cast<std::size_t>(edges[i][1])])];
+        EdgeOfMesh& edge = edge_of_[std::minmax(nodes[edges[i][0]], nodes[edges[i][1]])];
         edge = {g, e, static_cast<int>(i), edge.uses + 1};
       }
     }
   }
 
   std::vector<int> nodes_of(const EdgeOfMesh& edge) const {
-    const Group& group = model_.groups[static_cast<std::size_t>(edge.group)];
+    const Group& group = model_.groups[edge.group];
     std::vector<int> nodes;
-    for (const int local : group.element->edges()[static_cast<std::size_t>(edge.edge)])
+    for (const int local : group.element->edges()[edge.edge])
       nodes.push_back(group.nodes_of(edge.element)[local]);
     return nodes;
   }
@@ -516,8 +514,8 @@ class Skeleton {
       const msh::InterfaceSides sides = msh::interface_sides(*entry);
       std::vector<int> nodes(static_cast<std::size_t>(entry->nodes));
       for (std::size_t n = 0; n < bottom.size(); ++n) {
-        nodes[static_cast<std::size_t>(sides.bottom[n])] = bottom[n];
-        nodes[static_cast<std::size_t>(sides.top[n])] = top[n];
+        nodes[sides.bottom[n]] = bottom[n];
+        nodes[sides.top[n]] = top[n];
       }
       Group& target = group(name, code);
       target.element_numbers.push_back(joint.bottom[i].number);

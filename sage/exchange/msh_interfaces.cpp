@@ -11,9 +11,9 @@ namespace {
 std::vector<int> side_of(const ElementEntry& entry, bool top) {
   std::vector<int> nodes;
   for (int i = 0; i < entry.nodes; ++i)
-    if ((entry.parent_nodes[static_cast<std::size_t>(i)][1] > 0.0) == top) nodes.push_back(i);
+    if ((entry.parent_nodes[i][1] > 0.0) == top) nodes.push_back(i);
   const auto order = [&](int i) {
-    const double xi = entry.parent_nodes[static_cast<std::size_t>(i)][0];
+    const double xi = entry.parent_nodes[i][0];
     return std::pair(std::abs(xi) < 1.0, xi);
   };
   std::ranges::sort(nodes, {}, order);

@@ -50,8 +50,7 @@ const Spatial* spatial(int type) {
 void reorder(std::vector<int>& nodes, const MeshShape& shape) {
   if (shape.element == nullptr || shape.element->gmsh.nodes.empty()) return;
   const std::vector<int> read = nodes;
-  for (std::size_t i = 0; i < read.size(); ++i)
-    nodes[static_cast<std::size_t>(shape.element->gmsh.nodes[i])] = read[i];
+  for (std::size_t i = 0; i < read.size(); ++i) nodes[shape.element->gmsh.nodes[i]] = read[i];
 }
 
 // Words and numbers of the file with their line.  In a binary file numbers are bytes, and lines end with the last word.
@@ -338,7 +337,7 @@ class MshReader {
       const int given = in_.count();
       for (int t = 0; t < given; ++t) {
         const int tag = unsigned_tag();
-        if (t < 2) tags[static_cast<std::size_t>(t)] = tag;
+        if (t < 2) tags[t] = tag;
       }
       const MeshShape shape = known_shape(type);
       if (shape.nodes == 0) {

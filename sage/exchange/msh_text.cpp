@@ -44,8 +44,8 @@ std::vector<Block> surfaces(const Model& model, Diagnostics& diagnostics, int& l
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
     Block block{2, solid_type(*group.entry), static_cast<int>(blocks.size()) + 1, unlike(group, blocks), {}};
     for (int e = 0; e < group.elements(); ++e) {
-      std::vector<int> row{group.element_numbers[static_cast<std::size_t>(e)]};
-      for (int i : order) row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
+      std::vector<int> row{group.element_numbers[e]};
+      for (int i : order) row.push_back(model.mesh.number[group.nodes_of(e)[i]]);
       block.elements.push_back(std::move(row));
     }
     blocks.push_back(std::move(block));
@@ -58,8 +58,8 @@ Block side_lines(const Model& model, const Group& group, const std::vector<int>&
                  const std::vector<int>& numbers) {
   Block block{1, gmsh_line_type(side.size()), 0, "", {}};
   for (int e = 0; e < group.elements(); ++e) {
-    std::vector<int> row{numbers[static_cast<std::size_t>(e)]};
-    for (int i : side) row.push_back(model.mesh.number[static_cast<std::size_t>(group.nodes_of(e)[i])]);
+    std::vector<int> row{numbers[e]};
+    for (int i : side) row.push_back(model.mesh.number[group.nodes_of(e)[i]]);
     block.elements.push_back(std::move(row));
   }
   return block;
@@ -138,7 +138,7 @@ std::vector<Block> supports(const Model& model, int first_number, int tags_befor
       if (name != "fix_y") beside.erase({node, 0});
       if (name != "fix_x") beside.erase({node, 1});
     }
-    const bool corners = model.groups[static_cast<std::size_t>(edge.group)].entry->gmsh.type == 0;
+    const bool corners = model.groups[edge.group].entry->gmsh.type == 0;
     if (corners || gmsh_line_type(edge.nodes.size()) == 0) edge.nodes.resize(2);
     Block& block = by_name[{name, edge.nodes.size()}];
     block.dimension = 1;
@@ -146,7 +146,7 @@ std::vector<Block> supports(const Model& model, int first_number, int tags_befor
     block.name = name;
     block.tag = tags.try_emplace(name, tags_before + static_cast<int>(tags.size()) + 1).first->second;
     std::vector<int> row{first_number++};
-    for (int node : edge.nodes) row.push_back(model.mesh.number[static_cast<std::size_t>(node)]);
+    for (int node : edge.nodes) row.push_back(model.mesh.number[node]);
     block.elements.push_back(std::move(row));
   }
   std::vector<Block> blocks;

@@ -95,9 +95,9 @@ class Sage1Writer {
     diagnostics_.add({Severity::warning, "S720", {model_.file, 0, 0, 0}, message, {}});
   }
 
-  int group_number(int group) const { return group_numbers_[static_cast<std::size_t>(group)]; }
-  bool is_folded(int group) const { return folded_[static_cast<std::size_t>(group)] != 0; }
-  int node_number(int node) const { return model_.mesh.number[static_cast<std::size_t>(node)]; }
+  int group_number(int group) const { return group_numbers_[group]; }
+  bool is_folded(int group) const { return folded_[group] != 0; }
+  int node_number(int node) const { return model_.mesh.number[node]; }
   // Other nodes are made again as they were, with what they took over from those beside them.
   bool is_given(int node) const { return node < model_.mesh.given_nodes(); }
   template <class Card>
@@ -199,9 +199,9 @@ void Sage1Writer::number_groups() {
   int largest = 0;
   for (const Group& group : model_.groups) largest = std::max(largest, group.number);
   for (int g = 0; g < static_cast<int>(model_.groups.size()); ++g) {
-    const Group& group = model_.groups[static_cast<std::size_t>(g)];
+    const Group& group = model_.groups[g];
     const auto [first, is_new] = first_of.try_emplace(group.number, g);
-    const Group& other = model_.groups[static_cast<std::size_t>(first->second)];
+    const Group& other = model_.groups[first->second];
     const bool folded = !is_new && other.entry->folded == group.entry->name &&
                         other.material == group.material && go_together(model_, first->second, g);
     folded_.push_back(folded ? 1 : 0);
@@ -275,8 +275,7 @@ void Sage1Writer::groups() {
     name(group.name, 40);
     if (group.second_material >= 0 && !wide_) throw TooWide{"of the second material of a group"};
     if (group.overlay || group.second_material >= 0) integer(group.overlay ? 1 : 0);
-    if (group.second_material >= 0)
-      integer(model_.materials[static_cast<std::size_t>(group.second_material)].number);
+    if (group.second_material >= 0) integer(model_.materials[group.second_material].number);
     line();
   }
 }
@@ -319,7 +318,7 @@ void Sage1Writer::elements() {
                              "): an element card holds up to " + std::to_string(kWideNodes) +
                              " nodes, these have " + std::to_string(numbers.size()));
       if (numbers.size() > kNodesOfCard && !wide_) throw TooWide{std::to_string(numbers.size())};
-      integer(group.element_numbers[static_cast<std::size_t>(e)]);
+      integer(group.element_numbers[e]);
       integer(group_number(static_cast<int>(g)));
       for (std::size_t i = 0; i < numbers.size(); ++i) {
         if (i == kNodesOfCard) text_.append(4 * integer_width(), ' ');  // no block
@@ -369,7 +368,7 @@ void Sage1Writer::exit(const Exit& exit) {
 }
 
 void Sage1Writer::unknown(int field, const TimeTable& history) {
-  name(model_.unknowns[static_cast<std::size_t>(field)].name, 20);
+  name(model_.unknowns[field].name, 20);
   if (!history.empty() && !wide_) throw TooWide{"of the history of a support or load"};
   if (!history.empty()) name(history_text(history), 80);
   line();
@@ -456,8 +455,8 @@ void Sage1Writer::stage(const Stage& stage) {
     unknown(load.field, load.history);
   }
   for (const EdgeLoad& load : stage.pressures) {
-    const Group& group = model_.groups[static_cast<std::size_t>(load.group)];
-    integer(group.element_numbers[static_cast<std::size_t>(load.element)]);
+    const Group& group = model_.groups[load.group];
+    integer(group.element_numbers[load.element]);
     // A folded triangle a b c stands on its card as a b c c: side 3 is what vanished.
     integer(load.edge + (is_folded(load.group) && load.edge == 2 ? 2 : 1));
     two_zeros();

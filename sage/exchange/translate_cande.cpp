@@ -197,7 +197,7 @@ class LoadFactors {
       if (!(factor > 0.0) || !std::isfinite(factor))
         fail(deck, card.where("factor"), "a load factor above zero is wanted (blank: 1)");
       for (int step = first; step <= std::min(last, steps); ++step) {
-        double& place = of_step_[static_cast<std::size_t>(step)];
+        double& place = of_step_[step];
         if (place != 0.0)
           fail(deck, card.where("first"), "load step " + std::to_string(step) + " has a load factor already");
         place = factor;
@@ -205,7 +205,7 @@ class LoadFactors {
     }
   }
   double at(int step) const {
-    const double factor = of_step_[static_cast<std::size_t>(step)];
+    const double factor = of_step_[step];
     return factor == 0.0 ? 1.0 : factor;
   }
   // The first step whose loads are multiplied; 0 = none.
@@ -318,10 +318,10 @@ class Pipes {
   }
   // The same wall with its weight times the load factor of its step.
   int factored(int wall, double factor) {
-    if (factor == 1.0 || walls_[static_cast<std::size_t>(wall)].weight == 0.0) return wall;
+    if (factor == 1.0 || walls_[wall].weight == 0.0) return wall;
     const auto [place, is_new] = factored_.try_emplace({wall, factor}, static_cast<int>(walls_.size()));
     if (is_new) {
-      Wall other = walls_[static_cast<std::size_t>(wall)];
+      Wall other = walls_[wall];
       other.weight *= factor;
       other.name += " x " + number_text(factor);
       walls_.push_back(other);

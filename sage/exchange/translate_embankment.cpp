@@ -94,7 +94,7 @@ Mesh embankment_mesh(const Deck& deck) {
   const double size = x.back() - x.front();
   const auto same = [size](double a, double b) { return std::abs(a - b) <= 1e-9 * size; };
   for (int i = 0; i <= wide; ++i)
-    if (!same(ex[static_cast<std::size_t>(i)], x[static_cast<std::size_t>(columns - wide + i)]))
+    if (!same(ex[i], x[columns - wide + i]))
       refuse(deck, deck.one("embankment_x"), "x",
              "the embankment stands on the last columns of the foundation: its x must "
              "be theirs");

@@ -65,16 +65,16 @@ void read_nodes(Body& body) {
   const CardView card = body.deck.one("mesh_nodes");
   const auto list = whole_list(body, "mesh_nodes", "coordinates", 2 * std::int64_t{nodes});
   for (int i = 0; i < nodes; ++i) {
-    const FieldValue& x = list[static_cast<std::size_t>(2 * i)];
-    body.nodes.push_back({i + 1, {x.number, list[static_cast<std::size_t>(2 * i + 1)].number}, card.where(x)});
+    const FieldValue& x = list[2 * i];
+    body.nodes.push_back({i + 1, {x.number, list[2 * i + 1].number}, card.where(x)});
   }
 }
 
 double area(const Body& body, const std::vector<int>& corners) {
   double twice = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vector2& a = body.nodes[static_cast<std::size_t>(corners[i] - 1)].x;
-    const Vector2& z = body.nodes[static_cast<std::size_t>(corners[(i + 1) % corners.size()] - 1)].x;
+    const Vector2& a = body.nodes[corners[i] - 1].x;
+    const Vector2& z = body.nodes[corners[(i + 1) % corners.size()] - 1].x;
     twice += a.x() * z.y() - z.x() * a.y();
   }
   return 0.5 * twice;
@@ -82,7 +82,7 @@ double area(const Body& body, const std::vector<int>& corners) {
 
 // Inner nodes of a 15-node triangle in the order (1/4, 1/4), (1/2, 1/4), (1/4, 1/2): by where they are.
 void order_inner(const Body& body, const std::vector<int>& corners, std::vector<int>& inner) {
-  const auto at = [&](int node) { return body.nodes[static_cast<std::size_t>(node - 1)].x; };
+  const auto at = [&](int node) { return body.nodes[node - 1].x; };
   const Vector2 a = at(corners[0]), b = at(corners[1]), c = at(corners[2]);
   const std::array<Vector2, 3> places{a + 0.25 * (b - a) + 0.25 * (c - a), a + 0.5 * (b - a) + 0.25 * (c - a),
                                       a + 0.25 * (b - a) + 0.5 * (c - a)};

@@ -72,7 +72,7 @@ std::vector<int> materials_by_place(const Source& s) {
   std::vector<int> of_element(listed.size());
   for (std::size_t e = 0; e < of_element.size(); ++e) {
     const auto [column, row] = s.mesh.cell_place(s.mesh.cell(static_cast<int>(e)));
-    of_element[e] = listed[static_cast<std::size_t>(row * s.mesh.columns() + column)];
+    of_element[e] = listed[row * s.mesh.columns() + column];
   }
   return of_element;
 }

@@ -245,7 +245,7 @@ FieldEntry section_field(std::string name, std::string meaning, Dimension dimens
   row.dimension = dimension;
   row.value = PointField{[=](const PointView& p, double* v) {
     const int at = p.sigma.size() == 5 ? of_five : of_three;
-    *v = 0.0 + sign * p.sigma[static_cast<std::size_t>(at)];
+    *v = 0.0 + sign * p.sigma[at];
   }};
   if (sign < 0.0) row.sign = FieldSign::compression_positive;
   row.kind = ElementKind::structure;

@@ -253,7 +253,7 @@ class CardBuilder {
     for (std::size_t j = 0; j < k; ++j)
       for (const FieldDraft& field : block.inner[j].fields) {
         if (field.cluster < 0) continue;
-        const Cluster& place = inner[j].clusters[static_cast<std::size_t>(field.cluster)];
+        const Cluster& place = inner[j].clusters[field.cluster];
         const std::vector<double> given = column_values(first, period, j, place);
         const std::string name = "\"" + block.inner[j].name + "." + field.name + "\"";
         // A number that is the same in every block agrees in all as easily as in one.
@@ -461,7 +461,7 @@ class CardBuilder {
   void end_by_number(const Run& run, CardDraft& card) {
     for (const FieldDraft& field : card.fields) {
       if (field.kind != Kind::integer || field.cluster < 0) continue;
-      const ColumnFacts& column = run.columns[static_cast<std::size_t>(field.cluster)];
+      const ColumnFacts& column = run.columns[field.cluster];
       if (!column.ascending || column.count != run.lines.size() || column.last < 3.0) return;
       const bool gaps = column.last - column.low + 1.0 > static_cast<double>(run.lines.size());
       if (!gaps) return;

@@ -187,7 +187,7 @@ void take_labels(std::string_view heading, CardDraft& card) {
     ++words;
     if (aligned) ++ends;
     if (f >= 0) {
-      std::string& label = labels[static_cast<std::size_t>(f)];
+      std::string& label = labels[f];
       label += (label.empty() ? "" : " ") + std::string(heading.substr(at, end - at));
     }
     at = end;
@@ -213,7 +213,7 @@ void find_format(const Run& run, const Scan& scan, CardDraft& card) {
   if (!printed) infer_format(run, scan.facts, card);
   const bool named = !scan.facts.separator.empty();
   const int heading = !run.headings.empty() ? static_cast<int>(run.headings.back()) : run.comment;
-  if (!named && heading >= 0) take_labels(scan.lines[static_cast<std::size_t>(heading)].record, card);
+  if (!named && heading >= 0) take_labels(scan.lines[heading].record, card);
 }
 
 CardDraft text_card(const std::string& name, std::size_t lines) {

@@ -44,7 +44,7 @@ class CoverageFinder {
         first = &first->entries.front();
         headings += first->headings;
       }
-      auto& most = headings_[static_cast<std::size_t>(first->card)];
+      auto& most = headings_[first->card];
       most = std::max(most, headings);
       if (entry.card < 0) find_headings(entry.entries);
     }
@@ -56,7 +56,7 @@ class CoverageFinder {
   }
 
   void add_card(const Card& card) {
-    const CardSpec& spec = deck_.specs[static_cast<std::size_t>(card.spec)];
+    const CardSpec& spec = deck_.specs[card.spec];
     const auto index = static_cast<std::size_t>(card.spec);
     CardCoverage& kind = coverage_.cards[index];
     ++kind.cards;
@@ -85,8 +85,8 @@ class CoverageFinder {
 
   void take_line(int line, CardCoverage& kind) {
     // Items of a list-directed READ share lines.
-    if (!taken_[static_cast<std::size_t>(line)]) ++kind.lines;
-    taken_[static_cast<std::size_t>(line)] = true;
+    if (!taken_[line]) ++kind.lines;
+    taken_[line] = true;
   }
 
   // What the card's values read of a line, and the characters that none of them holds.
@@ -140,11 +140,11 @@ class CoverageFinder {
 
   // Lines above the first card of a run that the layout passes over.
   void take_headings(const Card& card) {
-    if (deck_.specs[static_cast<std::size_t>(card.spec)].made) return;
-    int left = headings_[static_cast<std::size_t>(card.spec)];
-    for (int line = card.line - 1; left > 0 && line > 0 && !taken_[static_cast<std::size_t>(line)]; --line) {
+    if (deck_.specs[card.spec].made) return;
+    int left = headings_[card.spec];
+    for (int line = card.line - 1; left > 0 && line > 0 && !taken_[line]; --line) {
       if (is_comment(line)) continue;
-      taken_[static_cast<std::size_t>(line)] = true;
+      taken_[line] = true;
       ++coverage_.headings;
       --left;
     }
@@ -153,7 +153,7 @@ class CoverageFinder {
   void count_lines() {
     for (const CardCoverage& card : coverage_.cards) coverage_.card_lines += card.lines;
     for (int line = 1; line <= lines_; ++line) {
-      if (taken_[static_cast<std::size_t>(line)]) continue;
+      if (taken_[line]) continue;
       if (is_comment(line))
         ++coverage_.comments;
       else if (all_blank(deck_.line_text(line)))
@@ -340,9 +340,7 @@ void print_card(const Deck& deck, const CardRule& rule, const std::string& sourc
 void find_sources(const Layout& layout, const std::vector<LayoutEntry>& entries,
                   std::vector<std::string>& sources) {
   for (const LayoutEntry& entry : entries) {
-    if (entry.card >= 0 && entry.made_from >= 0)
-      sources[static_cast<std::size_t>(entry.card)] =
-          layout.cards[static_cast<std::size_t>(entry.made_from)].key;
+    if (entry.card >= 0 && entry.made_from >= 0) sources[entry.card] = layout.cards[entry.made_from].key;
     find_sources(layout, entry.entries, sources);
   }
 }

@@ -16,7 +16,7 @@ std::string heading_of(const Run& run, const Scan& scan) {
   const int line = !run.headings.empty() ? static_cast<int>(run.headings.back())
                    : run.comment >= 0    ? run.comment
                                          : run.title;
-  return line < 0 ? "" : lower_case(scan.lines[static_cast<std::size_t>(line)].record);
+  return line < 0 ? "" : lower_case(scan.lines[line].record);
 }
 
 // One of the first two words of the heading begins so: those behind them are names of fields.
@@ -84,7 +84,7 @@ std::vector<std::vector<double>> sample_rows(const Run& run, const Scan& scan) {
     std::size_t from = 0;
     for (const Token& token : scan.lines[run.lines[n]].tokens)
       if (const int at = cluster_of(run.clusters, token, from); at >= 0 && is_number(token))
-        row[static_cast<std::size_t>(at)] = token.value;
+        row[at] = token.value;
     rows.push_back(std::move(row));
   }
   return rows;

@@ -306,7 +306,7 @@ void find_column_facts(Run& run, const Scan& scan) {
     for (const Token& token : scan.lines[i].tokens) {
       const int at = cluster_of(run.clusters, token, from);
       if (at < 0 || !is_number(token)) continue;
-      ColumnFacts& column = run.columns[static_cast<std::size_t>(at)];
+      ColumnFacts& column = run.columns[at];
       const double v = token.value;
       if (column.count > 0) {
         column.ascending = column.ascending && v > column.last;
@@ -332,7 +332,7 @@ bool alike(const Run& a, const Run& b) {
     const Token extent{cluster.first, cluster.last, cluster.kind(), false, 0.0};
     const int at = cluster_of(a.clusters, extent, from);
     if (at < 0) continue;
-    const Cluster& other = a.clusters[static_cast<std::size_t>(at)];
+    const Cluster& other = a.clusters[at];
     if (other.kind() != cluster.kind()) return false;
     const bool integers = cluster.kind() == Kind::integer;
     if (integers && other.right_max != cluster.right_max && other.left_min != cluster.left_min) return false;

@@ -374,7 +374,7 @@ Scan scan(const SourceText& source) {
   }
   int count = source.line_count();
   while (count > 0 && all_blank(source.line(count))) --count;
-  result.lines.reserve(static_cast<std::size_t>(count));
+  result.lines.reserve(count);
   for (int n = 1; n <= count; ++n) result.lines.push_back(line_of(source, n, result.facts));
   if (result.facts.separator.empty()) find_columns(result.lines, result.facts);
   if (!result.facts.listed) find_widths(result.lines, result.facts);

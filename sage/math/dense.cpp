@@ -12,7 +12,7 @@ void PivotedQr::factorise(const Eigen::MatrixXd& V) {
   const Eigen::Index rows = V.rows(), columns = V.cols();
   Q_ = V;
   R_.resize(columns, columns);
-  order_.resize(static_cast<std::size_t>(columns));
+  order_.resize(columns);
   std::iota(order_.begin(), order_.end(), Eigen::Index{0});
   const auto product = [&](const double* a, const double* b) {
     double sum = 0.0;

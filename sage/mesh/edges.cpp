@@ -50,10 +50,9 @@ std::vector<CutEdge> cut_edges_of_sides(const EdgeTable& edges, int first_made) 
 std::vector<CutEdge> cut_edges_between(const std::vector<int>& listed, const EdgeTable& edges, int first_made) {
   std::vector<char> is_listed(static_cast<std::size_t>(first_made), 0);
   for (const int node : listed)
-    if (node < first_made) is_listed[static_cast<std::size_t>(node)] = 1;
+    if (node < first_made) is_listed[node] = 1;
   return cut_edges(edges, first_made, [&](const EdgeTable::Edge& edge, int known) {
-    return known > 0 || (is_listed[static_cast<std::size_t>(edge.ends.first)] != 0 &&
-                         is_listed[static_cast<std::size_t>(edge.ends.second)] != 0);
+    return known > 0 || (is_listed[edge.ends.first] != 0 && is_listed[edge.ends.second] != 0);
   });
 }
 
@@ -81,7 +80,7 @@ class Supports {
   }
 
  private:
-  bool& held(int node, std::size_t c) { return held_[static_cast<std::size_t>(node)][c]; }
+  bool& held(int node, std::size_t c) { return held_[node][c]; }
 
   const Fixity* card(int node) const {
     const auto it = cards_.find(node);
@@ -261,7 +260,7 @@ EdgeTable::EdgeTable(const Model& model, bool structures)
   for_element_edges(model, structures, [&](int low, int other) {
     const auto node = static_cast<std::size_t>(low);
     const auto begin = high.begin() + start_[node], stop = high.begin() + end[node];
-    if (std::find(begin, stop, other) == stop) high[static_cast<std::size_t>(end[node]++)] = other;
+    if (std::find(begin, stop, other) == stop) high[end[node]++] = other;
   });
   edges_.reserve(high.size() / 2 + high.size() / 8);
   for (std::size_t node = 0; node < end.size(); ++node) {
@@ -286,7 +285,7 @@ EdgeTable::Edge* EdgeTable::find(int a, int z) {
 void EdgeTable::add(Edge& edge, const Link& link) {
   const int i = static_cast<int>(links_.size());
   links_.push_back(link);
-  (edge.first < 0 ? edge.first : links_[static_cast<std::size_t>(edge.last)].next) = i;
+  (edge.first < 0 ? edge.first : links_[edge.last].next) = i;
   edge.last = i;
 }
 

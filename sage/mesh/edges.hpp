@@ -53,7 +53,7 @@ class EdgeTable {
   std::size_t index(const Edge& edge) const { return static_cast<std::size_t>(&edge - edges_.data()); }
   void add(Edge& edge, const Link& link);
   const std::vector<Edge>& edges() const { return edges_; }
-  const Link& link(int i) const { return links_[static_cast<std::size_t>(i)]; }
+  const Link& link(int i) const { return links_[i]; }
 
  private:
   std::vector<int> start_;  // of each node: the edges of which it is the smaller end
@@ -99,10 +99,8 @@ class NewNodes {
     made_.push_back(x);
     return first_ + static_cast<int>(made_.size()) - 1;
   }
-  Vector2 at(int node) const {
-    return node < first_ ? Vector2(mesh_->x.col(node)) : made_[static_cast<std::size_t>(node - first_)];
-  }
-  void reserve(int nodes) { made_.reserve(static_cast<std::size_t>(nodes)); }
+  Vector2 at(int node) const { return node < first_ ? Vector2(mesh_->x.col(node)) : made_[node - first_]; }
+  void reserve(int nodes) { made_.reserve(nodes); }
   int append();  // index of the first of them
 
  private:

@@ -32,7 +32,7 @@ Place between(const Place& a, const Place& z, double t) {
 // A small element like the whole at corner k, and two beside it.
 std::vector<ChildCorners> around_corner(int corners, int k, double ratio) {
   const auto& parent = parent_corners(corners);
-  const auto at = [&](int i) { return parent[static_cast<std::size_t>((k + i) % corners)]; };
+  const auto at = [&](int i) { return parent[(k + i) % corners]; };
   const Place c = at(0), m1 = between(c, at(1), ratio), m2 = between(c, at(corners - 1), ratio);
   if (corners == 3) return {{c, m1, m2}, {m1, at(1), at(2)}, {m1, at(2), m2}};
   const Place p = between(c, at(2), ratio);
@@ -95,8 +95,7 @@ void grade(Work& b, int node, int layers, double ratio) {
   for (int i = 0; i < layers; ++i)
     if (!add_layer(b, centre, ratio)) {
       b.error("S403", b.deck.one("control").where(),
-              "the mesh can't be graded towards node " +
-                  std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
+              "the mesh can't be graded towards node " + std::to_string(b.model.mesh.number[node]) +
                   ": it is not the corner of an element");
       return;
     }

@@ -30,13 +30,12 @@ struct Making {
 };
 
 std::string name_of(const Group& group, int e) {
-  return "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
-         group.element_name + ")";
+  return "element " + std::to_string(group.element_numbers[e]) + " (" + group.element_name + ")";
 }
 
 // Place of an edge's inner node between its ends.
 double place_on_edge(std::span<const Place> parent, const std::vector<int>& edge, std::size_t i) {
-  const auto point = [&](int local) { return parent[static_cast<std::size_t>(local)]; };
+  const auto point = [&](int local) { return parent[local]; };
   const auto distance = [](const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
   return distance(point(edge[i]), point(edge[0])) / distance(point(edge[1]), point(edge[0]));
 }
@@ -46,10 +45,8 @@ bool fits(Work& b, const Group& group, int e, Making& made, const EdgeTable::Edg
   Making::Owner& owner = made.owner[made.edges.index(edge)];
   if (owner.group == nullptr) owner = {&group, e, inner};
   if (owner.inner == inner) return true;
-  const auto number = [&](int node) {
-    return std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]);
-  };
-  b.error("S401", {b.deck.file, group.element_lines[static_cast<std::size_t>(e)], 0, 0},
+  const auto number = [&](int node) { return std::to_string(b.model.mesh.number[node]); };
+  b.error("S401", {b.deck.file, group.element_lines[e], 0, 0},
           name_of(group, e) + " has " + std::to_string(inner) + " node(s) inside its edge from node " +
               number(edge.ends.first) + " to " + number(edge.ends.second) + ", its neighbour " +
               name_of(*owner.group, owner.element) + " has " + std::to_string(owner.inner) +

@@ -12,7 +12,7 @@ std::vector<char> used_nodes(const Model& model) {
   std::vector<char> used(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (const Group& group : model.groups)
     for (int node : group.nodes)
-      if (node >= 0) used[static_cast<std::size_t>(node)] = 1;
+      if (node >= 0) used[node] = 1;
   return used;
 }
 
@@ -36,14 +36,14 @@ void refuse_lost_supports(Work& b, const std::map<int, EdgeKey>& middles, const 
   const auto check = [&](const Activity& activity, const std::vector<Fixity>& cards) {
     for (const Fixity& f : cards) {
       const auto it = middles.find(f.node);
-      if (it == middles.end() || used[static_cast<std::size_t>(f.node)]) continue;
+      if (it == middles.end() || used[f.node]) continue;
       for (std::size_t c = 0; c < 2; ++c) {
         const auto is_held = [&](int node) { return activity.holds(node, static_cast<int>(c)); };
         if (f.code[c] != FixityCode::fixed || (is_held(it->second.first) && is_held(it->second.second)))
           continue;
         b.error("S404", {b.deck.file, f.line, 0, 0},
-                "node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(f.node)]) +
-                    " is held along " + (c == 0 ? "x" : "y") +
+                "node " + std::to_string(b.model.mesh.number[f.node]) + " is held along " +
+                    (c == 0 ? "x" : "y") +
                     " but is no node of the graded mesh, and the ends of its edge are not both held; --refine "
                     "keeps "
                     "it");
@@ -63,15 +63,13 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
   Model& model = b.model;
   const std::vector<char> used = used_nodes(model);
   lost.resize(used.size(), 1);  // also those that one layer made and the next one cut off
-  const auto is_lost = [&](int node) {
-    return lost[static_cast<std::size_t>(node)] && !used[static_cast<std::size_t>(node)];
-  };
+  const auto is_lost = [&](int node) { return lost[node] && !used[node]; };
   const auto holds_lost = [&](const auto& fixity) { return is_lost(fixity.node); };
   const auto refuse_lost = [&](const auto& loads) {
     for (const auto& load : loads)
       if (is_lost(load.node))
         b.error("S404", {b.deck.file, load.line, 0, 0},
-                "node " + std::to_string(model.mesh.number[static_cast<std::size_t>(load.node)]) +
+                "node " + std::to_string(model.mesh.number[load.node]) +
                     " is loaded but is no node of the graded mesh; load its edge by a pressure card");
   };
   std::erase_if(model.fixities, holds_lost);
@@ -125,7 +123,7 @@ bool has_unusable_shapes(const Model& model) {
   Eigen::Matrix2Xd x;
   std::vector<double> geometry;
   for (const Group& group : model.groups) {
-    geometry.resize(static_cast<std::size_t>(group.element->traits().geometry_size()));
+    geometry.resize(group.element->traits().geometry_size());
     for (int e = 0; e < group.elements(); ++e) {
       const int* nodes = group.nodes_of(e);
       if (std::any_of(nodes, nodes + group.node_count(), [](int node) { return node < 0; })) continue;
@@ -173,7 +171,7 @@ void refine_as_asked(Work& b) {
       grade(b, node, grading.layers, grading.ratio);
       b.warning(
           "S406", b.at_line(0),
-          "mesh graded towards node " + std::to_string(b.model.mesh.number[static_cast<std::size_t>(node)]) +
+          "mesh graded towards node " + std::to_string(b.model.mesh.number[node]) +
               ": where the corner is singular the stress at it does not converge, it grows with every layer");
     }
   refine(b, options.refine_graded);

@@ -166,7 +166,7 @@ bool is_singular(Side a, Side b, double angle, double nu) {
 // Near 1/2 where water keeps the volume.
 double poissons_ratio_at(const Model& model, const BoundaryEdge& edge) {
   constexpr double kUndrained = 0.499;
-  const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
+  const Group& group = model.groups[edge.group];
   return group.excess >= 0 ? kUndrained : std::min(poissons_ratio(model.material_of(group)), kUndrained);
 }
 

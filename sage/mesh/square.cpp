@@ -58,7 +58,7 @@ using Cut = std::map<Place2, Crossing>;
 
 bool has_middle(const Group& group, int element, int side) {
   const auto& edges = group.element->edges();
-  const auto& edge = edges[static_cast<std::size_t>(group.interface() ? side / 2 : side)];
+  const auto& edge = edges[group.interface() ? side / 2 : side];
   return middle_of(edge) >= 0 && group.nodes_of(element)[middle_of(edge)] >= 0;
 }
 
@@ -75,7 +75,7 @@ std::optional<Cut> follow(const Model& model, const Sides& sides, int from, int 
     const Step step = open.back();
     open.pop_back();
     for (const OnSide& on : sides.at(edge_key(step.a, step.z))) {
-      const Group& group = model.groups[static_cast<std::size_t>(on.element.group)];
+      const Group& group = model.groups[on.element.group];
       if (group.entry->corners != 4) return {};
       const int* nodes = group.nodes_of(on.element.element);
       const double along = nodes[on.side] == step.a ? step.t : 1.0 - step.t;  // from the side's first corner
@@ -96,7 +96,7 @@ std::optional<Cut> follow(const Model& model, const Sides& sides, int from, int 
 // The middle of a side that a card gives stays a node only where the cut passes it.
 bool passes_middle(const Model& model, const Cut& cut) {
   return std::ranges::any_of(cut, [&](const auto& one) {
-    const Group& group = model.groups[static_cast<std::size_t>(one.first.group)];
+    const Group& group = model.groups[one.first.group];
     const int first = one.second.along_xi ? 0 : 1;
     return has_middle(group, one.first.element, first) || has_middle(group, one.first.element, first + 2);
   });
@@ -114,8 +114,7 @@ void apply(Work& b, const Cut& cut, const Sides& sides) {
       const OnSide& on = along->second.front();
       const auto crossed = cut.find(on.element);
       if (crossed == cut.end() || crossed->second.along_xi != (on.side % 2 == 0)) continue;
-      const int* nodes =
-          b.model.groups[static_cast<std::size_t>(on.element.group)].nodes_of(on.element.element);
+      const int* nodes = b.model.groups[on.element.group].nodes_of(on.element.element);
       const double t = 0.5 * (1.0 + (on.side < 2 ? crossed->second.at : -crossed->second.at));
       subdivision.split_line(static_cast<int>(g), e, nodes[on.side] == a ? t : 1.0 - t);
     }

@@ -40,13 +40,12 @@ void check_nodes(Work& b, const Group& group, int corners) {
   std::vector<char> known(group.node_count(), 0);
   std::fill(known.begin(), known.begin() + corners, 1);
   for (const auto& edge : group.element->edges())
-    if (middle_of(edge) >= 0) known[static_cast<std::size_t>(middle_of(edge))] = 1;
+    if (middle_of(edge) >= 0) known[middle_of(edge)] = 1;
   for (int e = 0; e < group.elements(); ++e)
     for (std::size_t i = 0; i < known.size(); ++i)
       if (!known[i] && group.nodes_of(e)[i] >= 0) {
-        b.error("S402", {b.deck.file, group.element_lines[static_cast<std::size_t>(e)], 0, 0},
-                "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(e)]) + " (" +
-                    group.element_name +
+        b.error("S402", {b.deck.file, group.element_lines[e], 0, 0},
+                "element " + std::to_string(group.element_numbers[e]) + " (" + group.element_name +
                     ") can't be refined: its card gives more nodes than corners and mid-side nodes");
         throw InputError(b.problems);
       }
@@ -176,15 +175,13 @@ int Subdivision::node_at(SplitElement& parent, const Place& q, bool middle) {
   for (int k = 0; k < parent.sides; ++k)
     if (same(q, corner[static_cast<std::size_t>(k)])) return parent.nodes[static_cast<std::size_t>(k)];
   for (int k = 0; k < parent.sides; ++k) {
-    const auto t = place_on(q, corner[static_cast<std::size_t>(k)],
-                            corner[static_cast<std::size_t>((k + 1) % parent.sides)]);
+    const auto t = place_on(q, corner[static_cast<std::size_t>(k)], corner[(k + 1) % parent.sides]);
     if (!t) continue;
     if (!parent.has_edge(k)) return -1;
-    const auto& edge = parent.group->element->edges()[static_cast<std::size_t>(parent.edge_of_side(k))];
-    const int m = middle_of(edge) < 0 ? -1 : parent.nodes[static_cast<std::size_t>(middle_of(edge))];
+    const auto& edge = parent.group->element->edges()[parent.edge_of_side(k)];
+    const int m = middle_of(edge) < 0 ? -1 : parent.nodes[middle_of(edge)];
     if (middle && m < 0) return -1;
-    return cut(parent.nodes[static_cast<std::size_t>(edge[0])], parent.nodes[static_cast<std::size_t>(edge[1])],
-               m, *t);
+    return cut(parent.nodes[edge[0]], parent.nodes[edge[1]], m, *t);
   }
   if (middle && !parent.shape.curved()) return -1;
   for (const auto& [at, node] : parent.inner)
@@ -196,7 +193,7 @@ int Subdivision::node_at(SplitElement& parent, const Place& q, bool middle) {
 }
 
 void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children) {
-  Group& group = b_->model.groups[static_cast<std::size_t>(g)];
+  Group& group = b_->model.groups[g];
   const std::size_t n = group.node_count();
   const auto& edges = group.element->edges();
   SplitElement parent{
@@ -207,8 +204,8 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
     parent.shape.corner[k] = nodes_.at(parent.nodes[k]);
   if (!group.interface())
     for (std::size_t k = 0; k < edges.size(); ++k)
-      if (const int m = middle_of(edges[k]); m >= 0 && parent.nodes[static_cast<std::size_t>(m)] >= 0)
-        parent.shape.middle[k] = nodes_.at(parent.nodes[static_cast<std::size_t>(m)]);
+      if (const int m = middle_of(edges[k]); m >= 0 && parent.nodes[m] >= 0)
+        parent.shape.middle[k] = nodes_.at(parent.nodes[m]);
 
   // Children share corners.
   std::vector<std::pair<Place, int>>& known = corners_;
@@ -232,7 +229,7 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
     } else {
       child = group.elements();
       group.element_numbers.push_back(++last_number_);
-      group.element_lines.push_back(group.element_lines[static_cast<std::size_t>(e)]);
+      group.element_lines.push_back(group.element_lines[e]);
       group.nodes.insert(group.nodes.end(), nodes.begin(), nodes.end());
     }
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -242,8 +239,7 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
         group.nodes[static_cast<std::size_t>(child) * n + static_cast<std::size_t>(m)] =
             node_at(parent, halfway(a, z), true);
       for (int side = 0; loaded && side < parent.sides; ++side) {
-        const Place &from = corner[static_cast<std::size_t>(side)],
-                    &to = corner[static_cast<std::size_t>((side + 1) % parent.sides)];
+        const Place &from = corner[side], &to = corner[(side + 1) % parent.sides];
         const auto ta = place_on(a, from, to), tz = place_on(z, from, to);
         if (parent.has_edge(side) && ta && tz)
           segments_[{g, e, parent.edge_of_side(side)}].push_back({child, static_cast<int>(i), *ta, *tz});
@@ -256,16 +252,15 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
 void Subdivision::refuse_hinge(const Group& group, int element) const {
   const auto& unknowns = group.entry->unknowns;
   if (std::ranges::all_of(unknowns, [](const ElementUnknown& u) { return u.nodes.empty(); })) return;
-  b_->error("S402", {b_->deck.file, group.element_lines[static_cast<std::size_t>(element)], 0, 0},
-            "element " + std::to_string(group.element_numbers[static_cast<std::size_t>(element)]) + " (" +
-                group.element_name +
+  b_->error("S402", {b_->deck.file, group.element_lines[element], 0, 0},
+            "element " + std::to_string(group.element_numbers[element]) + " (" + group.element_name +
                 ") lies along elements that are to be refined, and has a hinge: give it and its neighbours the "
                 "size that is wanted");
   throw InputError(b_->problems);
 }
 
 void Subdivision::split_line(int g, int e, double t) {
-  Group& group = b_->model.groups[static_cast<std::size_t>(g)];
+  Group& group = b_->model.groups[g];
   const std::size_t n = group.node_count();
   const std::vector<int> nodes(group.nodes_of(e), group.nodes_of(e) + n);
   if (n < 2 || edges_.find(nodes[0], nodes[1]) == nullptr) return;
@@ -279,7 +274,7 @@ void Subdivision::split_line(int g, int e, double t) {
   std::copy(first.begin(), first.end(),
             group.nodes.begin() + static_cast<std::ptrdiff_t>(e) * static_cast<std::ptrdiff_t>(n));
   group.element_numbers.push_back(++last_number_);
-  group.element_lines.push_back(group.element_lines[static_cast<std::size_t>(e)]);
+  group.element_lines.push_back(group.element_lines[e]);
   group.nodes.insert(group.nodes.end(), second.begin(), second.end());
   if (loaded_.contains({g, e})) segments_[{g, e, 0}] = {{e, 0, 0.0, t}, {child, 0, t, 1.0}};
 }

@@ -7,7 +7,7 @@ namespace sage {
 std::vector<char> active_dofs(const Model& model, const Activity& activity) {
   std::vector<char> flags(static_cast<std::size_t>(activity.dof_map.dofs()), 0);
   std::vector<int> listed;
-  const auto mark = [&](int dof) { flags[static_cast<std::size_t>(dof)] = 1; };
+  const auto mark = [&](int dof) { flags[dof] = 1; };
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (!activity.group[g]) continue;

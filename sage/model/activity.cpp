@@ -13,8 +13,8 @@ namespace {
 // dof: -1 where a node that was made along a held edge lacks the field.
 void apply(FixityCode code, int dof, std::vector<char>& held) {
   if (dof < 0) return;
-  if (code == FixityCode::fixed) held[static_cast<std::size_t>(dof)] = 1;
-  if (code == FixityCode::released) held[static_cast<std::size_t>(dof)] = 0;
+  if (code == FixityCode::fixed) held[dof] = 1;
+  if (code == FixityCode::released) held[dof] = 0;
 }
 
 void apply(const std::vector<Fixity>& fixities, const std::vector<FieldFixity>& others, const DofMap& dof_map,
@@ -38,22 +38,21 @@ std::string mode_name(const Eigen::Vector3d& mode) {
 Activity::Activity(const Model& model)
     : dof_map(model), group(model.groups.size(), 1), held(static_cast<std::size_t>(dof_map.dofs()), 0) {
   for (const Stage& stage : model.stages)
-    for (int g : stage.births) group[static_cast<std::size_t>(g)] = 0;
+    for (int g : stage.births) group[g] = 0;
   apply(model.fixities, model.field_fixities, dof_map, held);
   for (int dof = dof_map.displacements(); dof < dof_map.dofs(); ++dof)
-    if (model.unknowns[static_cast<std::size_t>(dof_map.at(dof).field)].of_pores)
-      pores.emplace_back(dof, held[static_cast<std::size_t>(dof)]);
+    if (model.unknowns[dof_map.at(dof).field].of_pores) pores.emplace_back(dof, held[dof]);
 }
 
 void Activity::enter(const Stage& stage) {
-  for (int g : stage.births) group[static_cast<std::size_t>(g)] = 1;
-  for (int g : stage.deaths) group[static_cast<std::size_t>(g)] = 0;
-  for (const auto& [dof, supported] : pores) held[static_cast<std::size_t>(dof)] = supported;
+  for (int g : stage.births) group[g] = 1;
+  for (int g : stage.deaths) group[g] = 0;
+  for (const auto& [dof, supported] : pores) held[dof] = supported;
   apply(stage.fixities, stage.field_fixities, dof_map, held);
   for (const Exit& exit : stage.exits)
     if (exit.field >= 0) apply(FixityCode::released, dof_map.of(exit.node, exit.field), held);
   for (auto& [dof, supported] : pores) {
-    char& now = held[static_cast<std::size_t>(dof)];
+    char& now = held[dof];
     supported = now;
     if (stage.pores != PoreWater::flows) now = stage.pores == PoreWater::kept;
   }
@@ -63,7 +62,7 @@ std::vector<char> active_nodes(const Model& model, const Activity& activity) {
   std::vector<char> active(static_cast<std::size_t>(model.mesh.nodes()), 0);
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     if (activity.group[g])
-      for (int node : model.groups[g].nodes) active[static_cast<std::size_t>(node)] = 1;
+      for (int node : model.groups[g].nodes) active[node] = 1;
   return active;
 }
 
@@ -82,7 +81,7 @@ std::vector<int> connected_parts(const Model& model, const Carries& carries) {
       if (!carries(g, e)) continue;
       const int* nodes = group.nodes_of(e);
       for (std::size_t i = 0; i < group.node_count(); ++i) {
-        used[static_cast<std::size_t>(nodes[i])] = 1;
+        used[nodes[i]] = 1;
         nodes_joined.join(nodes[i], nodes[0]);
       }
     }
@@ -91,7 +90,7 @@ std::vector<int> connected_parts(const Model& model, const Carries& carries) {
   int parts = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (!used[i]) continue;
-    int& n = number[static_cast<std::size_t>(nodes_joined.set_of(static_cast<int>(i)))];
+    int& n = number[nodes_joined.set_of(static_cast<int>(i))];
     if (n < 0) n = parts++;
     part[i] = n;
   }
@@ -106,14 +105,14 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
   std::vector<Vector2> centre(static_cast<std::size_t>(parts), Vector2::Zero());
   std::vector<int> count(static_cast<std::size_t>(parts), 0);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
-    const int p = part[static_cast<std::size_t>(node)];
+    const int p = part[node];
     if (p < 0) continue;
-    centre[static_cast<std::size_t>(p)] += model.mesh.x.col(node);
-    ++count[static_cast<std::size_t>(p)];
+    centre[p] += model.mesh.x.col(node);
+    ++count[p];
   }
   for (std::size_t p = 0; p < centre.size(); ++p) centre[p] /= std::max(1, count[p]);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
-    const int p = part[static_cast<std::size_t>(node)];
+    const int p = part[node];
     if (p < 0) continue;
     const auto pu = static_cast<std::size_t>(p);
     const Vector2 d = (Vector2(model.mesh.x.col(node)) - centre[pu]) / reach;
@@ -122,8 +121,7 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
     if (activity.holds(node, 1)) gram[pu] += row_y * row_y.transpose();
     for (std::size_t field = 1; field < model.unknowns.size(); ++field) {
       const int dof = activity.dof_map.of(node, static_cast<int>(field));
-      if (model.unknowns[field].turns && dof >= 0 && activity.held[static_cast<std::size_t>(dof)])
-        gram[pu](2, 2) += 1.0;
+      if (model.unknowns[field].turns && dof >= 0 && activity.held[dof]) gram[pu](2, 2) += 1.0;
     }
   }
   std::vector<LoosePart> loose;

@@ -16,9 +16,7 @@ struct Activity {
   void enter(const Stage& stage);
 
   // Of a displacement.
-  bool holds(int node, int component) const {
-    return held[static_cast<std::size_t>(DofMap::displacement(node, component))] != 0;
-  }
+  bool holds(int node, int component) const { return held[DofMap::displacement(node, component)] != 0; }
 
   DofMap dof_map;
   std::vector<char> group;  // active now

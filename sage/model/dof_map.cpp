@@ -24,7 +24,7 @@ std::vector<char> nodes_of_field(const Model& model, const std::string& name) {
       const std::vector<int> local = nodes_with(unknown, group.node_count());
       for (int e = 0; e < group.elements(); ++e)
         for (const int i : local)
-          if (const int node = group.nodes_of(e)[i]; node >= 0) flags[static_cast<std::size_t>(node)] = 1;
+          if (const int node = group.nodes_of(e)[i]; node >= 0) flags[node] = 1;
     }
   }
   return flags;
@@ -49,8 +49,8 @@ DofMap::DofMap(const Model& model)
 void DofMap::number(const Model& model, int field, const std::vector<char>& nodes) {
   std::vector<int>& dof_of = further_.emplace_back(nodes.size(), -1);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
-    if (!nodes[static_cast<std::size_t>(node)]) continue;
-    dof_of[static_cast<std::size_t>(node)] = dofs();
+    if (!nodes[node]) continue;
+    dof_of[node] = dofs();
     others_.push_back({node, field, 0});
   }
 }

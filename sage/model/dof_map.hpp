@@ -28,11 +28,11 @@ class DofMap {
   // -1: no element gives the node that field.
   int of(int node, int field, int component = 0) const {
     if (field == 0) return displacement(node, component);
-    return further_[static_cast<std::size_t>(field) - 1][static_cast<std::size_t>(node)];
+    return further_[static_cast<std::size_t>(field) - 1][node];
   }
   Unknown at(int dof) const {
     if (dof < displacements_) return {dof / 2, 0, dof % 2};
-    return others_[static_cast<std::size_t>(dof - displacements_)];
+    return others_[dof - displacements_];
   }
 
   // The dofs of an element, in its own order.

@@ -34,7 +34,7 @@ std::vector<Neighbour> neighbours_of(const Model& model, const std::vector<char>
     if (!group.flow() || !active[g]) continue;
     for (int e = 0; e < group.elements(); ++e) {
       const int* nodes = group.nodes_of(e);
-      const auto listed = [&](int n) { return on_line[static_cast<std::size_t>(n)] != 0; };
+      const auto listed = [&](int n) { return on_line[n] != 0; };
       if (std::none_of(nodes, nodes + group.node_count(), listed)) continue;
       Neighbour one{g, e, {}};
       for (const std::vector<int>& edge : group.element->edges()) one.edges.push_back(along(nodes, edge));
@@ -164,13 +164,11 @@ void add_edges(const std::vector<Neighbour>& around, const std::set<Step>& steps
 
 FlowLine flow_line(const Model& model, const std::vector<char>& active, const std::vector<int>& nodes) {
   FlowLine line;
-  const auto number = [&](int node) {
-    return std::to_string(model.mesh.number[static_cast<std::size_t>(node)]);
-  };
+  const auto number = [&](int node) { return std::to_string(model.mesh.number[node]); };
   const std::set<int> on_line(nodes.begin(), nodes.end());
   if (on_line.size() < 2) return line.fault = "it needs two nodes or more", line;
   std::vector<char> listed(static_cast<std::size_t>(model.mesh.nodes()), 0);
-  for (const int node : nodes) listed[static_cast<std::size_t>(node)] = 1;
+  for (const int node : nodes) listed[node] = 1;
   const std::vector<Neighbour> around = neighbours_of(model, active, listed);
   const std::vector<int> order = walk(around, nodes);
   if (order.empty()) {

@@ -18,7 +18,7 @@ class Joined {
   void join(int a, int b) { parent(set_of(a)) = set_of(b); }
 
  private:
-  int& parent(int i) { return parent_[static_cast<std::size_t>(i)]; }
+  int& parent(int i) { return parent_[i]; }
 
   std::vector<int> parent_;
 };

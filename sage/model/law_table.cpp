@@ -11,9 +11,7 @@ namespace {
 
 double parameter_by_name(const LawVariant& variant, const Parameter& wanted) {
   const int at = variant.entry->find(wanted.name);
-  return at >= 0 && static_cast<std::size_t>(at) < variant.parameters.size()
-             ? variant.parameters[static_cast<std::size_t>(at)]
-             : 0.0;
+  return at >= 0 && static_cast<std::size_t>(at) < variant.parameters.size() ? variant.parameters[at] : 0.0;
 }
 
 // Parameters of the first variant's law that are not the same in all of them.
@@ -92,12 +90,12 @@ const typename LawTable<N>::One& LawTable<N>::in_force(std::span<const double> h
 
 template <int N>
 void LawTable<N>::gather(const One& one, std::span<const double> h, double* own) {
-  for (const int place : one.places) *own++ = h[static_cast<std::size_t>(place)];
+  for (const int place : one.places) *own++ = h[place];
 }
 
 template <int N>
 void LawTable<N>::scatter(const One& one, const double* own, std::span<double> h) {
-  for (const int place : one.places) h[static_cast<std::size_t>(place)] = *own++;
+  for (const int place : one.places) h[place] = *own++;
 }
 
 template <int N>
@@ -170,12 +168,11 @@ double LawTable<N>::stress_level(const Vector<N>& sigma, std::span<const double>
 
 template <int N>
 bool LawTable<N>::choose(int law, bool anew, const Vector<N>& sigma, std::span<double> h) const {
-  const One& one = laws_[static_cast<std::size_t>(law)];
+  const One& one = laws_[law];
   std::ranges::copy(one.shown, h.begin() + static_cast<std::ptrdiff_t>(first_shown_));
   h[quantities_.size() - 1] = law;
   if (!anew || one.held) return true;
-  for (const int place : one.places)
-    h[static_cast<std::size_t>(place)] = quantities_[static_cast<std::size_t>(place)].initial;
+  for (const int place : one.places) h[place] = quantities_[place].initial;
   return initialise(sigma, h);
 }
 

@@ -147,7 +147,7 @@ std::vector<Location> Locator::at(const Vector2& place) const {
   std::map<std::size_t, double> least;  // distance by group; kHeld where an element holds the place
   if (strips_.empty()) return found;
   for (const int i : strips_[strip_at(place.x())]) {
-    const Box& box = boxes_[static_cast<std::size_t>(i)];
+    const Box& box = boxes_[i];
     if ((place.array() < box.low.array()).any() || (place.array() > box.high.array()).any()) continue;
     Location location;
     if (inside(box, place, location)) {
@@ -192,7 +192,7 @@ double reach_of(const Model& model) {
 std::vector<int> zones_of(const Model& model) {
   std::vector<int> birth(model.groups.size(), -1);  // -1: there from the start
   for (std::size_t s = 0; s < model.stages.size(); ++s)
-    for (int g : model.stages[s].births) birth[static_cast<std::size_t>(g)] = static_cast<int>(s);
+    for (int g : model.stages[s].births) birth[g] = static_cast<int>(s);
   std::map<std::pair<int, int>, int> zones;
   std::vector<int> zone;
   for (std::size_t g = 0; g < model.groups.size(); ++g)

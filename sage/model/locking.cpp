@@ -22,8 +22,7 @@ Dilation dilation_of(const Material& material) {
   const std::size_t count = std::min(rows.size(), material.parameters.size());
   // A code for flow: beside an angle 1 means none, without one it is the share of the associated flow.
   const int at = material.entry->find("flow");
-  const double flow =
-      at >= 0 && static_cast<std::size_t>(at) < count ? material.parameters[static_cast<std::size_t>(at)] : 0.0;
+  const double flow = at >= 0 && static_cast<std::size_t>(at) < count ? material.parameters[at] : 0.0;
   if (material.entry->find(ParameterRole::dilation_angle) < 0) return {0.0, flow};
   if (flow != 0.0) return {};
   double angle = 0.0;

@@ -59,7 +59,7 @@ const Formulation& Group::formulation_entry() const {
 std::optional<double> Material::parameter(ParameterRole role) const {
   const int i = entry == nullptr ? -1 : entry->find(role);
   if (i < 0 || static_cast<std::size_t>(i) >= parameters.size()) return std::nullopt;
-  return parameters[static_cast<std::size_t>(i)];
+  return parameters[i];
 }
 
 double report_area(const Model& model, const Report& report) {

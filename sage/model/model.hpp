@@ -307,9 +307,7 @@ struct Model {
   std::vector<std::string> left_out;  // what the deck asks for and this is without, to be named with results
   std::vector<std::string> plugins;   // that the deck names
 
-  const Material& material_of(const Group& group) const {
-    return materials[static_cast<std::size_t>(group.material)];
-  }
+  const Material& material_of(const Group& group) const { return materials[group.material]; }
   // Place among the unknowns of the excess pressure of pore water; -1 = no element solves for it.
   int pore_field() const {
     const auto found = std::ranges::find(unknowns, true, &UnknownField::of_pores);
@@ -319,7 +317,7 @@ struct Model {
   // Holds nullptr where the group has one law.
   LawRef second_law_of(const Group& group) const {
     if (group.second_material < 0) return {};
-    return materials[static_cast<std::size_t>(group.second_material)].law_ref();
+    return materials[group.second_material].law_ref();
   }
 };
 

@@ -53,7 +53,7 @@ Overburden::Above Overburden::above(const Vector2& place) const {
   if (bins_.empty() || place.x() < low_) return sum;
   const auto bin = std::min(bins_.size() - 1, static_cast<std::size_t>((place.x() - low_) / width_));
   for (const int c : bins_[bin]) {
-    const Cell& cell = cells_[static_cast<std::size_t>(c)];
+    const Cell& cell = cells_[c];
     double bottom = std::numeric_limits<double>::infinity(), top = -bottom;
     for (std::size_t i = 0; i < cell.corners.size(); ++i) {
       const Vector2 &a = cell.corners[i], &b = cell.corners[(i + 1) % cell.corners.size()];
@@ -97,18 +97,17 @@ bool PorePressure::any() const {
 }
 
 void PorePressure::take_nodes(const WaterCard& card, std::size_t group) {
-  nodes_[group].assign(static_cast<std::size_t>(model_->mesh.nodes()), kNone);
-  for (const auto& [node, pressure] : card.nodes) nodes_[group][static_cast<std::size_t>(node)] = pressure;
+  nodes_[group].assign(model_->mesh.nodes(), kNone);
+  for (const auto& [node, pressure] : card.nodes) nodes_[group][node] = pressure;
   fill_middles(group);
 }
 
 void PorePressure::take_heads(std::size_t group, const DofMap& map, const Eigen::VectorXd* unknowns) {
   const int head = find_unknown(model_->unknowns, "head");
-  nodes_[group].assign(static_cast<std::size_t>(model_->mesh.nodes()), kNone);
+  nodes_[group].assign(model_->mesh.nodes(), kNone);
   for (const int node : model_->groups[group].nodes)
     if (const int dof = head < 0 ? -1 : map.of(node, head); dof >= 0)
-      nodes_[group][static_cast<std::size_t>(node)] =
-          model_->units.water_unit_weight * ((*unknowns)[dof] - model_->mesh.x(1, node));
+      nodes_[group][node] = model_->units.water_unit_weight * ((*unknowns)[dof] - model_->mesh.x(1, node));
   fill_middles(group);
 }
 
@@ -119,10 +118,9 @@ void PorePressure::fill_middles(std::size_t group) {
   for (int e = 0; e < own.elements(); ++e)
     for (const std::vector<int>& edge : own.element->edges()) {
       const int* const nodes = own.nodes_of(e);
-      const double a = u[static_cast<std::size_t>(nodes[edge[0]])],
-                   b = u[static_cast<std::size_t>(nodes[edge[1]])];
+      const double a = u[nodes[edge[0]]], b = u[nodes[edge[1]]];
       for (std::size_t i = 2; i < edge.size(); ++i) {
-        double& middle = u[static_cast<std::size_t>(nodes[edge[i]])];
+        double& middle = u[nodes[edge[i]]];
         const double part = static_cast<double>(i - 1) / static_cast<double>(edge.size() - 1);
         if (std::isnan(middle)) middle = a + part * (b - a);
       }
@@ -134,7 +132,7 @@ void PorePressure::fill_middles(std::size_t group) {
 double PorePressure::nodal(std::size_t group, int element, std::span<const double> N) const {
   const int* const nodes = model_->groups[group].nodes_of(element);
   double u = 0.0;
-  for (std::size_t i = 0; i < N.size(); ++i) u += N[i] * nodes_[group][static_cast<std::size_t>(nodes[i])];
+  for (std::size_t i = 0; i < N.size(); ++i) u += N[i] * nodes_[group][nodes[i]];
   return std::max(0.0, u);
 }
 
@@ -161,8 +159,7 @@ Vector2 PorePressure::gradient(std::size_t group, int element, const Vector2& pl
     return share_of_depth(*card, place.x()) * model_->units.water_unit_weight *
            Vector2(slope_at(*card, place.x()), -1.0);
   const int* const nodes = model_->groups[group].nodes_of(element);
-  for (Eigen::Index i = 0; i < dN.rows(); ++i)
-    slope += nodes_[group][static_cast<std::size_t>(nodes[i])] * dN.row(i).transpose();
+  for (Eigen::Index i = 0; i < dN.rows(); ++i) slope += nodes_[group][nodes[i]] * dN.row(i).transpose();
   return slope;
 }
 

@@ -37,8 +37,7 @@ SolidEdges::SolidEdges(const Model& model, const Wanted& wanted)
   edges_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for_edges(model, wanted, [&](int group, int element, std::int16_t local, int from, int to) {
-    edges_[next[static_cast<std::size_t>(std::min(from, to))]++] = {std::max(from, to), group, element, local,
-                                                                    from > to};
+    edges_[next[std::min(from, to)]++] = {std::max(from, to), group, element, local, from > to};
   });
   for (std::size_t node = 0; node + 1 < first_.size(); ++node) {
     const auto begin = edges_.begin() + static_cast<std::ptrdiff_t>(first_[node]);

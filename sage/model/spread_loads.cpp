@@ -18,9 +18,9 @@ class SpreadLoads {
     Activity activity(model_);
     std::vector<const EdgeLoad*> edges;
     Vector2 gravity = Vector2::Zero();
-    const auto active = [&] { return activity.group[static_cast<std::size_t>(index_)] != 0; };
+    const auto active = [&] { return activity.group[index_] != 0; };
     for (int s = 0; s <= last; ++s) {
-      const Stage& stage = model_.stages[static_cast<std::size_t>(s)];
+      const Stage& stage = model_.stages[s];
       activity.enter(stage);
       gravity += stage.gravity;
       for (const EdgeLoad& load : stage.pressures)

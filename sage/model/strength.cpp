@@ -83,7 +83,7 @@ bool has_strength(const Material& material) {
 bool has_less_dilation(const Model& model) {
   return std::ranges::any_of(model.groups, [&](const Group& group) {
     if (group.material < 0 || !group.solid()) return false;
-    const Material& material = model.materials[static_cast<std::size_t>(group.material)];
+    const Material& material = model.materials[group.material];
     const std::vector<Parameter>& rows = material.entry->parameters;
     double phi = 0.0;
     for (std::size_t i = 0; i < std::min(material.parameters.size(), rows.size()); ++i) {

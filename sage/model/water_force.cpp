@@ -74,8 +74,8 @@ std::vector<FreeEdge> free_edges(const Model& model, const std::vector<char>& gr
   const std::set<std::pair<int, int>> lines = lines_of_structures(model, groups);
   std::vector<FreeEdge> free;
   edges_of_active(model, groups).for_single([&](int, const SolidEdge& edge) {
-    const Group& group = model.groups[static_cast<std::size_t>(edge.group)];
-    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.local)];
+    const Group& group = model.groups[edge.group];
+    const std::vector<int>& local = group.element->edges()[edge.local];
     free.push_back(
         {edge.group, edge.element, edge.local, carries_structure(lines, group.nodes_of(edge.element), local)});
   });
@@ -118,7 +118,7 @@ class WaterForce {
         const Vector2 slope =
             as_force ? water_.gradient(g, e, mapped_.place, mapped_.N, mapped_.dN) : Vector2(0.0, 0.0);
         for (Eigen::Index i = 0; i < x_.cols(); ++i) {
-          const double N = mapped_.N[static_cast<std::size_t>(i)];
+          const double N = mapped_.N[i];
           Vector2 f = u * mapped_.dN.row(i).transpose();
           if (ring) f.x() += u * N / mapped_.place.x();
           if (as_force) f = -N * slope;
@@ -173,8 +173,8 @@ class WaterForce {
   }
 
   std::pair<int, int> key_of(const FreeEdge& edge) const {
-    const Group& group = model_.groups[static_cast<std::size_t>(edge.group)];
-    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const Group& group = model_.groups[edge.group];
+    const std::vector<int>& local = group.element->edges()[edge.edge];
     const int* const nodes = group.nodes_of(edge.element);
     return edge_key(nodes[local[0]], nodes[local[1]]);
   }
@@ -198,13 +198,13 @@ class WaterForce {
 
   // -u n on the solid; what lies behind a joint gets the opposite unless it is wet itself.
   void add_edge(const FreeEdge& edge, const std::set<std::pair<int, int>>& wet) {
-    const Group& group = model_.groups[static_cast<std::size_t>(edge.group)];
+    const Group& group = model_.groups[edge.group];
     const int* const nodes = group.nodes_of(edge.element);
-    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const std::vector<int>& local = group.element->edges()[edge.edge];
     const auto joint = joints_.find(key_of(edge));
     const std::map<int, int>* behind = joint == joints_.end() ? nullptr : &joint->second;
     if (behind != nullptr) {
-      const auto other = [&](int corner) { return behind->at(nodes[local[static_cast<std::size_t>(corner)]]); };
+      const auto other = [&](int corner) { return behind->at(nodes[local[corner]]); };
       if (wet.contains(edge_key(other(0), other(1)))) behind = nullptr;
     }
     press_edge(edge, 1.0, behind);
@@ -217,7 +217,7 @@ class WaterForce {
     const bool triangle = group.entry->triangle();
     element_coordinates(model_.mesh, group, edge.element, x_);
     const int* const nodes = group.nodes_of(edge.element);
-    const std::vector<int>& local = group.element->edges()[static_cast<std::size_t>(edge.edge)];
+    const std::vector<int>& local = group.element->edges()[edge.edge];
     const Vector2 from = parent_corner(triangle, local[0]), to = parent_corner(triangle, local[1]);
     const GaussRule line(group.element->traits().degree + 2);
     for (std::size_t q = 0; q < line.x.size(); ++q) {
@@ -227,7 +227,7 @@ class WaterForce {
       const double u = water_.at(g, edge.element, mapped_.place, mapped_.N);
       if (!(u > 0.0)) continue;
       for (const int i : local) {
-        const Vector2 f = mapped_.N[static_cast<std::size_t>(i)] * w * u * Vector2(-along.y(), along.x());
+        const Vector2 f = mapped_.N[i] * w * u * Vector2(-along.y(), along.x());
         at(nodes[i]) += f;
         if (behind == nullptr) continue;
         if (const auto opposite = behind->find(nodes[i]); opposite != behind->end()) at(opposite->second) -= f;
@@ -238,7 +238,7 @@ class WaterForce {
   void add_structures() {
     std::vector<int> dofs;
     const auto add = [&](int g, int element, std::span<const double> f) {
-      const Group& group = model_.groups[static_cast<std::size_t>(g)];
+      const Group& group = model_.groups[g];
       activity_.dof_map.list(group, element, dofs);
       for (std::size_t i = 0; i < dofs.size(); ++i) force_[dofs[i]] += f[i];
       take_back_behind(group, element);

@@ -150,7 +150,7 @@ void add_free_water(const Model& model, const Group& group, int element, const W
       }
       const Eigen::Vector3d N = line.N(xi);
       for (std::size_t i = 0; i < std::min<std::size_t>(edge.size(), 3); ++i)
-        Vector2::Map(f.data() + 2 * edge[i]) += N[static_cast<Eigen::Index>(i)] * force;
+        Vector2::Map(f.data() + 2 * edge[i]) += N[i] * force;
     }
   }
 }
@@ -161,8 +161,7 @@ void water_on_structures(const Model& model, int stage, const std::vector<char>&
                          const AddWater& add) {
   const auto card = [&](int group, WaterSide side) { return water_card(model, stage, group, side); };
   const auto any = [&](int group) {
-    return (only < 0 || group == only) && groups[static_cast<std::size_t>(group)] &&
-           model.groups[static_cast<std::size_t>(group)].structure() &&
+    return (only < 0 || group == only) && groups[group] && model.groups[group].structure() &&
            (card(group, WaterSide::left) != nullptr || card(group, WaterSide::right) != nullptr);
   };
   bool wanted = false;
@@ -174,8 +173,8 @@ void water_on_structures(const Model& model, int stage, const std::vector<char>&
     const WaterCard* const left = one.left ? card(one.group, WaterSide::left) : nullptr;
     const WaterCard* const right = one.right ? card(one.group, WaterSide::right) : nullptr;
     if (left == nullptr && right == nullptr) continue;
-    const Group& group = model.groups[static_cast<std::size_t>(one.group)];
-    f.assign(static_cast<std::size_t>(group.element->traits().dofs), 0.0);
+    const Group& group = model.groups[one.group];
+    f.assign(group.element->traits().dofs, 0.0);
     if (left != nullptr) add_free_water(model, group, one.element, *left, -1.0, one.wet, f);
     if (right != nullptr) add_free_water(model, group, one.element, *right, 1.0, one.wet, f);
     add(one.group, one.element, f);

@@ -18,7 +18,7 @@ struct Mapped {
   Vector2 place = Vector2::Zero();
 
   void take(const Element& element, const Eigen::Matrix2Xd& x, const Vector2& parent) {
-    N.resize(static_cast<std::size_t>(x.cols()));
+    N.resize(x.cols());
     dN_parent.resize(x.cols(), 2);
     element.shape_functions(parent, N, {dN_parent.data(), static_cast<std::size_t>(dN_parent.size())});
     place = x * Eigen::Map<const Eigen::VectorXd>(N.data(), x.cols());

@@ -84,8 +84,7 @@ void Drawing::read_points(const toml::table& root) {
       continue;
     }
     for (std::size_t c = 0; c < 2; ++c)
-      point.x[static_cast<Eigen::Index>(c)] =
-          values_.number((*pair)[c], c == 0 ? "x" : "y", values_.units.length);
+      point.x[c] = values_.number((*pair)[c], c == 0 ? "x" : "y", values_.units.length);
     if (keys != nullptr) point.size = real_of(values_, *keys, "size", values_.units.length);
     points_[point.name] = static_cast<int>(section_.points.size());
     section_.points.push_back(point);
@@ -242,7 +241,7 @@ bool Drawing::mesh_it() {
   for (const Tie& tie : mesh_.ties) {
     if (tie.kind != Tie::Kind::end) continue;
     values_.error("S152", place_of(SectionItem::line, tie.line),
-                  "line " + section_.lines[static_cast<std::size_t>(tie.line)].name +
+                  "line " + section_.lines[tie.line].name +
                       ": the end of a joint inside the ground can be joined only with a beam; leave it open");
     meshed_ = false;
   }
@@ -250,7 +249,7 @@ bool Drawing::mesh_it() {
 }
 
 void Drawing::add_node(int node, const SourcePosition& where) {
-  const Vector2& x = mesh_.x[static_cast<std::size_t>(node)];
+  const Vector2& x = mesh_.x[node];
   out_.add(
       "node", where,
       {{"number", static_cast<double>(number_of(node)), {}, {}}, {"x", x.x(), {}, {}}, {"y", x.y(), {}, {}}});
@@ -314,7 +313,7 @@ void Drawing::add_structure(const Line& line, const LineMesh& mesh) {
 // stated, or a tenth of the element's size.
 int Drawing::interface_material(const Line& line, int area) {
   if (line.interface.material != 0) return line.interface.material;
-  const int ground = area >= 0 ? area_material_[static_cast<std::size_t>(area)] : 0;
+  const int ground = area >= 0 ? area_material_[area] : 0;
   const auto [made, is_new] = joint_materials_.try_emplace({line.name, ground}, 0);
   if (!is_new) return made->second;
   const std::map<std::string, double>& given = values_.parameters[ground];
@@ -332,7 +331,7 @@ int Drawing::interface_material(const Line& line, int area) {
             line.name + ": give the interface a material of its own");
     return 0;
   }
-  const double size = section_.lines[static_cast<std::size_t>(line_index_.at(line.name))].size;
+  const double size = section_.lines[line_index_.at(line.name)].size;
   const double thickness =
       line.interface.thickness > 0.0 ? line.interface.thickness : 0.1 * (size > 0.0 ? size : section_.size);
   if (!(thickness > 0.0)) {
@@ -361,12 +360,12 @@ void Drawing::add_interfaces(const Line& line, const LineMesh& mesh, bool left) 
   const SourcePosition where = values_.where(*line.at);
   std::map<int, int> group_of;  // by the area beside it
   for (const InterfaceElement& one : all) {
-    const LineSegment& segment = mesh.segments[static_cast<std::size_t>(one.segment)];
+    const LineSegment& segment = mesh.segments[one.segment];
     const bool on_left = segment.left.there() && (left || !segment.right.there());
     const int area = on_left ? segment.left.area : segment.right.area;
     const auto [group, is_new] = group_of.try_emplace(area, 0);
     if (is_new) {
-      const std::string of = area >= 0 ? section_.areas[static_cast<std::size_t>(area)].name : std::string();
+      const std::string of = area >= 0 ? section_.areas[area].name : std::string();
       group->second = add_group(line.name + (left ? " left " : " right ") + of, line.name,
                                 values_.catalogue.elements.code_of(entry_->side_interface), 0,
                                 interface_material(line, area), where);
@@ -415,10 +414,10 @@ void Drawing::add_bars(const toml::table& root) {
                       "the bar's " + std::string(key) + " is a name of [points]");
         continue;
       }
-      PointMesh& mesh = mesh_.points[static_cast<std::size_t>(point->second)];
+      PointMesh& mesh = mesh_.points[point->second];
       if (mesh.nodes.empty()) {  // outside of the ground
         mesh.nodes.push_back(static_cast<int>(mesh_.x.size()));
-        mesh_.x.push_back(section_.points[static_cast<std::size_t>(point->second)].x);
+        mesh_.x.push_back(section_.points[point->second].x);
         add_node(mesh.nodes[0], where);
       }
       ends.push_back(mesh.beam >= 0 ? mesh.beam : mesh.nodes[0]);
@@ -450,7 +449,7 @@ std::vector<int> Drawing::nodes_at(const toml::node& node) {
   const int found = find_point(node);
   std::vector<int> numbers;
   if (found < 0 || !meshed_) return numbers;
-  for (const int one : mesh_.points[static_cast<std::size_t>(found)].nodes) numbers.push_back(number_of(one));
+  for (const int one : mesh_.points[found].nodes) numbers.push_back(number_of(one));
   if (numbers.empty())
     values_.error("S153", values_.where(node),
                   "no node of the mesh lies at the point \"" + node.value_or(std::string()) + "\"");
@@ -461,7 +460,7 @@ std::vector<int> Drawing::nodes_along(const toml::node& node) {
   const int found = find_line(node);
   std::vector<int> numbers;
   if (found < 0 || !meshed_) return numbers;
-  for (const int one : mesh_.lines[static_cast<std::size_t>(found)].nodes) numbers.push_back(number_of(one));
+  for (const int one : mesh_.lines[found].nodes) numbers.push_back(number_of(one));
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
@@ -470,7 +469,7 @@ std::vector<DrawnEdge> Drawing::edges_along(const toml::node& node, const toml::
   const int found = find_line(node);
   std::vector<DrawnEdge> edges;
   if (found < 0 || !meshed_) return edges;
-  const LineMesh& line = mesh_.lines[static_cast<std::size_t>(found)];
+  const LineMesh& line = mesh_.lines[found];
   const bool any_left = std::ranges::any_of(line.segments, [](const LineSegment& s) { return s.left.there(); });
   const bool any_right =
       std::ranges::any_of(line.segments, [](const LineSegment& s) { return s.right.there(); });
@@ -492,17 +491,15 @@ std::vector<DrawnEdge> Drawing::edges_along(const toml::node& node, const toml::
   for (std::size_t s = 0; s < line.segments.size(); ++s) {
     const int a = nodes[s * step], b = nodes[(s + 1) * step];
     const bool known = a >= 0 && b >= 0;
-    at.push_back(
-        at.back() +
-        (known ? (mesh_.x[static_cast<std::size_t>(b)] - mesh_.x[static_cast<std::size_t>(a)]).norm() : 0.0));
+    at.push_back(at.back() + (known ? (mesh_.x[b] - mesh_.x[a]).norm() : 0.0));
   }
   for (std::size_t s = 0; s < line.segments.size(); ++s) {
     const AreaEdge& edge = left ? line.segments[s].left : line.segments[s].right;
     if (!edge.there()) continue;
     // Counter-clockwise edges run along the line where the body is on its left, against it on its right.
     const double first = at[s] / at.back(), last = at[s + 1] / at.back();
-    edges.push_back({first_element_[static_cast<std::size_t>(edge.area)] + edge.element, edge.edge + 1,
-                     left ? first : last, left ? last : first});
+    edges.push_back(
+        {first_element_[edge.area] + edge.element, edge.edge + 1, left ? first : last, left ? last : first});
   }
   return edges;
 }

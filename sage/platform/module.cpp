@@ -27,7 +27,7 @@ std::string bytes_at(std::ifstream& in, std::uint64_t at, std::uint64_t count) {
   in.clear();
   in.seekg(static_cast<std::streamoff>(at));
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  bytes.resize(in.gcount());
   return bytes;
 }
 

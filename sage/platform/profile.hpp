@@ -34,7 +34,7 @@ class Profile {
 
     // Negative: not known.
     void add_operations(double count) {
-      if (count > 0.0) profile_->phases_[static_cast<std::size_t>(profile_->at_)].operations += count;
+      if (count > 0.0) profile_->phases_[profile_->at_].operations += count;
     }
 
    private:

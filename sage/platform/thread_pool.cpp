@@ -7,7 +7,7 @@
 namespace sage {
 
 ThreadPool::ThreadPool(int threads) {
-  workers_.reserve(static_cast<std::size_t>(std::max(0, threads - 1)));
+  workers_.reserve(std::max(0, threads - 1));
   try {
     for (int t = 1; t < threads; ++t) workers_.emplace_back([this, t] { serve(t); });
   } catch (const std::system_error&) {

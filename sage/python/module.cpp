@@ -151,7 +151,7 @@ drive::Subject subject_of(const DriveRequest& request, const Catalogue& known) {
   for (const auto& [name, value] : request.settings) {
     const int place = parameter_place(*subject.entry, name);
     if (place < 0) drive::apply(subject, {name, "0"});  // says which there are
-    if (place >= 0) subject.values[static_cast<std::size_t>(place)] = value;
+    if (place >= 0) subject.values[place] = value;
   }
   drive::expect_whole(subject);
   return subject;
@@ -170,7 +170,7 @@ py::dict drive_law(const DriveRequest& request) {
   if (request.steps < 1) throw py::value_error("a path has at least one step");
   drive::Path path;
   for (const auto& [name, value] : request.history) path.history.push_back({name, value});
-  path.start.assign(static_cast<std::size_t>(size), 0.0);
+  path.start.assign(size, 0.0);
   if (request.start.size() > path.start.size())
     throw py::value_error("the law has " + std::to_string(size) + " components of stress");
   if (!request.start.empty())

@@ -40,7 +40,7 @@ class Keeper final : public Observer {
   void on_stage_start(const Model& model, int stage, const Solution& now) override {
     StepReport report;
     report.stage = stage;
-    report.increments = model.stages[static_cast<std::size_t>(stage)].increments;
+    report.increments = model.stages[stage].increments;
     if (stage == 0 && wants_states(model, report)) add(model, report, now);
   }
   void on_increment(const Model& model, const StepReport& report, const Solution& now) override {
@@ -398,7 +398,7 @@ std::shared_ptr<const Frame> PythonAnalysis::state() {
   StepReport report;
   report.stage = stage() - 1;
   report.increment = increment();
-  report.increments = model_->stages[static_cast<std::size_t>(report.stage)].increments;
+  report.increments = model_->stages[report.stage].increments;
   report.load_factor = now.load_factor;
   return std::make_shared<const Frame>(*model_, report, now);
 }
@@ -408,7 +408,7 @@ Stage& PythonAnalysis::stage_of(int number) {
   if (number < 1 || number > static_cast<int>(model_->stages.size()))
     throw py::value_error("there is no stage " + std::to_string(number) + ": the model has " +
                           std::to_string(model_->stages.size()));
-  return model_->stages[static_cast<std::size_t>(number - 1)];
+  return model_->stages[number - 1];
 }
 
 // At the end of a stage the analysis is at the start of the next one.
@@ -419,7 +419,7 @@ int PythonAnalysis::stage() const {
 
 int PythonAnalysis::increment() const {
   if (analysis_->increment() > 0 || analysis_->stage() == 0) return analysis_->increment();
-  return model_->stages[static_cast<std::size_t>(analysis_->stage() - 1)].increments;
+  return model_->stages[analysis_->stage() - 1].increments;
 }
 
 // Loads of stages that are not open yet are read when they are.
@@ -433,8 +433,8 @@ void PythonAnalysis::set_pressure(int number, double normal, double shear, const
   Stage& stage = stage_of(number);
   std::size_t changed = 0;
   for (EdgeLoad& load : stage.pressures) {
-    const Group& group = model_->groups[static_cast<std::size_t>(load.group)];
-    const int element = group.element_numbers[static_cast<std::size_t>(load.element)];
+    const Group& group = model_->groups[load.group];
+    const int element = group.element_numbers[load.element];
     if (!elements.empty() && std::ranges::find(elements, element) == elements.end()) continue;
     load.normal = Vector2(normal, normal);
     load.shear = Vector2(shear, shear);

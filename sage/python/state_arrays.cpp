@@ -163,7 +163,7 @@ py::tuple point_places(const Model& model, ElementKind kind) {
       for (int p = 0; p < group.element->traits().points; ++p) {
         const Vector2 at = group.element->position(x, p);
         *number++ = group.number;
-        *number++ = group.element_numbers[static_cast<std::size_t>(e)];
+        *number++ = group.element_numbers[e];
         *number++ = p + 1;
         *place++ = at.x();
         *place++ = at.y();

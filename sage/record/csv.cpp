@@ -85,7 +85,7 @@ void node_rows(const Cells& cells, const Model& model, const StepReport& report,
   std::vector<double> values(most_values(fields));
   const NodeViews views(model, s);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
-    if (!active[static_cast<std::size_t>(node)]) continue;
+    if (!active[node]) continue;
     const NodeView view = views.at(node);
     cells.begin(report);
     cells.integer(view.number);
@@ -113,7 +113,7 @@ void point_rows(const Cells& cells, const Model& model, const StepReport& report
       const Vector2 at = group.element->position(x, p);
       cells.begin(report);
       cells.integer(group.number);
-      cells.integer(group.element_numbers[static_cast<std::size_t>(e)]);
+      cells.integer(group.element_numbers[e]);
       cells.integer(p + 1);
       cells.result(at.x());
       cells.result(at.y());
@@ -261,9 +261,9 @@ void Csv::add_ends(const Model& model, const StepReport& report, const Solution&
         const Group& group = model.groups[g];
         cells.begin(report);
         cells.integer(group.number);
-        cells.integer(group.element_numbers[static_cast<std::size_t>(end.element)]);
+        cells.integer(group.element_numbers[end.element]);
         cells.integer(end.end);
-        cells.integer(model.mesh.number[static_cast<std::size_t>(end.node)]);
+        cells.integer(model.mesh.number[end.node]);
         for (int c = 0; c < 2; ++c) cells.result(end.place[c]);
         for (const std::size_t q : quantities_) cells.optional(end.value[q]);
         cells.end();
@@ -276,11 +276,11 @@ void Csv::add_envelope(const Model& model) {
   std::string& text = envelope_table_.file.text();
   const Cells cells{text, digits_};
   for (const EnvelopeEnd& row : envelope_.rows()) {
-    const Group& group = model.groups[static_cast<std::size_t>(row.group)];
+    const Group& group = model.groups[row.group];
     append_integer(text, group.number, 0);
-    cells.integer(group.element_numbers[static_cast<std::size_t>(row.element)]);
+    cells.integer(group.element_numbers[row.element]);
     cells.integer(row.end);
-    cells.integer(model.mesh.number[static_cast<std::size_t>(row.node)]);
+    cells.integer(model.mesh.number[row.node]);
     for (int c = 0; c < 2; ++c) cells.result(model.mesh.x(c, row.node));
     for (const std::size_t q : quantities_)
       for (const auto& [value, stage] :

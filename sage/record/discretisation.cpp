@@ -46,8 +46,7 @@ void DiscretisationError::on_start(const Model& model, const Scene& scene, std::
 }
 
 void DiscretisationError::on_stage_start(const Model& model, int stage, const Solution& solution) {
-  if (report_ >= 0 && stage == model.reports[static_cast<std::size_t>(report_)].stage)
-    start_ = stress_state(solution);
+  if (report_ >= 0 && stage == model.reports[report_].stage) start_ = stress_state(solution);
 }
 
 void DiscretisationError::on_stage_end(const Model& model, int stage, const EquilibriumAudit&,
@@ -64,7 +63,7 @@ void DiscretisationError::compute(const Model& model, const Solution& solution) 
   if (!locking_groups(model).empty()) return;
   estimate_ = estimate_error(model, solution, start_ ? &*start_ : nullptr);
   if (report_ < 0 || !linear_ || !estimate_->energy) return;
-  const Report& report = model.reports[static_cast<std::size_t>(report_)];
+  const Report& report = model.reports[report_];
   const std::vector<TriaxialRow>& rows = reports_->triaxial(static_cast<std::size_t>(report_));
   if (rows.empty() || !driven_by_displacement(model, report)) return;
   const TriaxialRow& last = rows.back();
@@ -90,7 +89,7 @@ void DiscretisationError::exchange(Archive& archive) {
 std::string DiscretisationError::why_none(const Model& model) {
   const std::vector<int> locking = locking_groups(model);
   if (locking.empty()) return {};
-  const Group& group = model.groups[static_cast<std::size_t>(locking.front())];
+  const Group& group = model.groups[locking.front()];
   return fmt::format(
       "not estimated: group {} ({}) locks near nu = 1/2, and an estimate sees only a part of that [{}]",
       group.number, group.element_name, "S410");
@@ -105,10 +104,9 @@ std::string DiscretisationError::text(const Model& model) const {
       fmt::format("  error       stress {:.2g} % {} (Zienkiewicz-Zhu)", 100.0 * estimate_->relative(),
                   estimate_->energy ? "in the energy norm" : "in the mean-square norm");
   if (estimate_->worst_group >= 0) {
-    const Group& group = model.groups[static_cast<std::size_t>(estimate_->worst_group)];
+    const Group& group = model.groups[estimate_->worst_group];
     const auto e = static_cast<std::size_t>(estimate_->worst_element);
-    const double part =
-        estimate_->element[static_cast<std::size_t>(estimate_->worst_group)][e] / estimate_->error;
+    const double part = estimate_->element[estimate_->worst_group][e] / estimate_->error;
     text += fmt::format(", {:.0f} % of its square in element {}", 100.0 * part, group.element_numbers[e]);
   }
   text += '\n';

@@ -40,9 +40,7 @@ int rotation_of(const ElementEntry& entry, int node) {
   for (const ElementUnknown& unknown : entry.unknowns) {
     const int count = unknown.nodes.empty() ? entry.nodes : static_cast<int>(unknown.nodes.size());
     for (int i = 0; i < count; ++i)
-      if (unknown.field.turns &&
-          (unknown.nodes.empty() ? i : unknown.nodes[static_cast<std::size_t>(i)]) == node)
-        return at + i;
+      if (unknown.field.turns && (unknown.nodes.empty() ? i : unknown.nodes[i]) == node) return at + i;
     at += count * unknown.field.components();
   }
   return -1;
@@ -181,7 +179,7 @@ class EndReader {
     section[kAxialForce] = towards * force.dot(t);
     if (const int turn = rotation_of(*group_.entry, node); turn >= 0) {
       section[kShearForce] = towards * force.dot(Vector2(-t.y(), t.x()));
-      section[kBendingMoment] = towards * force_[static_cast<std::size_t>(turn)];
+      section[kBendingMoment] = towards * force_[turn];
     }
     return section;
   }

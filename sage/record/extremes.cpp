@@ -22,7 +22,7 @@ void take(ExtremeRow& row, double value, int number) {
 }
 
 int element_number(const GroupData& data, int element) {
-  return data.group->element_numbers[static_cast<std::size_t>(element)];
+  return data.group->element_numbers[element];
 }
 
 // At the ends of the elements; of a field that ends don't have, at their points.
@@ -32,8 +32,7 @@ ExtremeRow extreme_of(const FieldEntry& field, const Model& model, const GroupDa
   row.low = std::numeric_limits<double>::infinity();
   row.high = -row.low;
   if (const int quantity = end_quantity(field.name); quantity >= 0) {
-    for (const ElementEnd& end : ends)
-      take(row, end.value[static_cast<std::size_t>(quantity)], element_number(data, end.element));
+    for (const ElementEnd& end : ends) take(row, end.value[quantity], element_number(data, end.element));
     return row;
   }
   const int points = data.group->element->traits().points;
@@ -120,10 +119,9 @@ std::string extremes_table(const Model& model, const std::vector<ExtremeRow>& ro
   std::int64_t group = -1;
   for (const ExtremeRow& row : rows) {
     if (row.low == 0.0 && row.high == 0.0) continue;
-    if (row.group != group)
-      text += fmt::format("    {}\n", structure_name(model.groups[static_cast<std::size_t>(row.group)]));
+    if (row.group != group) text += fmt::format("    {}\n", structure_name(model.groups[row.group]));
     group = row.group;
-    const FieldEntry& field = *fields[static_cast<std::size_t>(row.field)];
+    const FieldEntry& field = *fields[row.field];
     text += fmt::format(
         "      {:<23}{}{}\n", fmt::format("{} [{}]", field.name, unit_text(field.dimension, model.units)),
         value(row.low, row.low_at, row.low_stage), value(row.high, row.high_at, row.high_stage));
@@ -150,8 +148,8 @@ std::string envelope_table(const Model& model, const std::vector<EnvelopeEnd>& r
       text += fmt::format("{:>36}", fmt::format("{} [{}]", kEndQuantities[q], unit(q)));
     text += '\n';
     for (const EnvelopeEnd& row : own) {
-      text += fmt::format("{:>9}{:>4}{:>9}", group.element_numbers[static_cast<std::size_t>(row.element)],
-                          row.end, model.mesh.number[static_cast<std::size_t>(row.node)]);
+      text += fmt::format("{:>9}{:>4}{:>9}", group.element_numbers[row.element], row.end,
+                          model.mesh.number[row.node]);
       for (const std::size_t q : quantities)
         text += fmt::format("{:>14.5g}{:>4}{:>14.5g}{:>4}", row.low[q], row.low_stage[q] + 1, row.high[q],
                             row.high_stage[q] + 1);

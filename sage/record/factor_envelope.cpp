@@ -31,7 +31,7 @@ std::vector<FactoredRange> factored_ranges(const Model& model, const std::vector
         for (const EnvelopeEnd& row : sets[s].rows) {
           if (row.group != static_cast<std::int64_t>(g) || std::isnan(row.low[q])) continue;
           const double low = sets[s].set.effects * row.low[q], high = sets[s].set.effects * row.high[q];
-          const int element = model.groups[g].element_numbers[static_cast<std::size_t>(row.element)];
+          const int element = model.groups[g].element_numbers[row.element];
           if (!any || low < range.least.value)
             range.least = {low, s, static_cast<int>(row.low_stage[q]) + 1, element};
           if (!any || high > range.largest.value)
@@ -75,10 +75,9 @@ std::string factored_csv(const Model& model, const std::vector<FactoredEnds>& se
         kEndQuantities[q], quantity_unit(model, q));
   text += '\n';
   const auto begin = [&](const std::string& name, const EnvelopeEnd& row) {
-    const Group& group = model.groups[static_cast<std::size_t>(row.group)];
-    text += fmt::format("{},{},{},{},{}", name, group.number,
-                        group.element_numbers[static_cast<std::size_t>(row.element)], row.end,
-                        model.mesh.number[static_cast<std::size_t>(row.node)]);
+    const Group& group = model.groups[row.group];
+    text += fmt::format("{},{},{},{},{}", name, group.number, group.element_numbers[row.element], row.end,
+                        model.mesh.number[row.node]);
     for (int c = 0; c < 2; ++c) append_result_cell(text, model.mesh.x(c, row.node), digits);
   };
   for (const FactoredEnds& one : sets)

@@ -172,7 +172,7 @@ PointState::PointState(const Mesh& mesh, const GroupData& data, std::size_t poin
   strain = Vector4::Zero() - Vector4::Map(view.eps.data());
   if (!data.pore.empty()) view.pore_pressure = data.pore[point];
   if (data.group->excess >= 0) {  // the law's stress holds it
-    const double excess = view.history[static_cast<std::size_t>(data.group->excess)];
+    const double excess = view.history[data.group->excess];
     view.pore_pressure += excess;
     stress.head<3>().array() -= excess;
   }
@@ -244,13 +244,13 @@ namespace {
 void view_unknowns(const Solution& solution, int node, NodeView& view) {
   const Activity& activity = *solution.activity;
   for (int field = 1; field < activity.dof_map.fields(); ++field) {
-    UnknownView& unknown = view.unknowns[static_cast<std::size_t>(field)];
+    UnknownView& unknown = view.unknowns[field];
     unknown = {kNone, kNone, kNone};
     const int dof = activity.dof_map.of(node, field);
     if (dof < 0) continue;
     unknown.value = (*solution.u)[dof];
     unknown.load = (*solution.external)[dof];
-    if (activity.held[static_cast<std::size_t>(dof)]) unknown.reaction = reaction(solution, dof);
+    if (activity.held[dof]) unknown.reaction = reaction(solution, dof);
   }
 }
 
@@ -263,7 +263,7 @@ NodeViews::NodeViews(const Model& model, const Solution& solution)
 
 NodeView NodeViews::at(int node) const {
   NodeView view;
-  view.number = model_.mesh.number[static_cast<std::size_t>(node)];
+  view.number = model_.mesh.number[node];
   view.place = model_.mesh.x.col(node);
   const int first = DofMap::displacement(node);
   view.displacement = solution_.u->segment<2>(first);
@@ -277,8 +277,7 @@ NodeView NodeViews::at(int node) const {
 }
 
 ElementView element_view(const Model& model, const Group& group, int element, const Eigen::Matrix2Xd& x) {
-  return {group.element_numbers[static_cast<std::size_t>(element)], group.number,
-          model.material_of(group).number, *group.element, x};
+  return {group.element_numbers[element], group.number, model.material_of(group).number, *group.element, x};
 }
 
 IncrementView increment_view(const Model& model, const StepReport& r) {
@@ -286,7 +285,7 @@ IncrementView increment_view(const Model& model, const StepReport& r) {
   IncrementView view{r.stage + 1, r.increment, r.load_factor,     r.converged, r.total_iterations, r.cuts,
                      r.substeps,  last.force,  last.displacement, last.energy, std::span(r.points)};
   const bool worst = r.worst.node >= 0;
-  view.worst_node = worst ? model.mesh.number[static_cast<std::size_t>(r.worst.node)] : kNone;
+  view.worst_node = worst ? model.mesh.number[r.worst.node] : kNone;
   view.worst_component = worst ? r.worst.component + (r.worst.field > 0 ? 1 + r.worst.field : 0) : kNone;
   view.worst_residual = worst ? r.worst.residual : kNone;
   view.pivot_ratio = r.smallest_pivot_ratio >= 0.0 ? r.smallest_pivot_ratio : kNone;
@@ -371,7 +370,7 @@ std::string describe(const FieldChoice& choice, const Model& model) {
 
 std::string_view word_of(const FieldEntry& entry, double value) {
   if (!(value >= 0.0 && value < static_cast<double>(entry.words.size()))) return {};
-  return entry.words[static_cast<std::size_t>(value)];
+  return entry.words[value];
 }
 
 }  // namespace sage

@@ -45,8 +45,7 @@ std::size_t fixity_count(const std::vector<Fixity>& fixities, FixityCode code) {
 
 std::string group_numbers(const Model& model, const std::vector<int>& groups) {
   std::string text;
-  for (int g : groups)
-    text += (text.empty() ? "" : ", ") + std::to_string(model.groups[static_cast<std::size_t>(g)].number);
+  for (int g : groups) text += (text.empty() ? "" : ", ") + std::to_string(model.groups[g].number);
   return text;
 }
 
@@ -120,7 +119,7 @@ std::string water_text(const Model& model, const WaterCard& card) {
     case WaterKind::drained:
       return "drained, what was undrained lets its excess go";
   }
-  if (card.group >= 0 && model.groups[static_cast<std::size_t>(card.group)].structure())
+  if (card.group >= 0 && model.groups[card.group].structure())
     return text + (card.value > 0.0 ? ", left side" : card.value < 0.0 ? ", right side" : ", both sides");
   if (card.action == WaterAction::none) text += ", none at free edges";
   if (card.action == WaterAction::force) text += ", as seepage force and buoyancy";
@@ -142,11 +141,11 @@ void wrapped(std::string& text, std::string line) {
 // Prestress, initial stress and water that begin with a stage.
 void states_of_stage(std::string& text, const Model& model, int index) {
   const auto name = [&](int g) {
-    const Group& group = model.groups[static_cast<std::size_t>(g)];
+    const Group& group = model.groups[g];
     return fmt::format("group {}{}{}", group.number, group.name.empty() ? "" : " ", group.name);
   };
   const auto initial = [&](const InitialStress& card) {
-    const Group& group = model.groups[static_cast<std::size_t>(card.group)];
+    const Group& group = model.groups[card.group];
     const char* const what = card.kind == InitialKind::lock_off                       ? "lock-off"
                              : is_about_law(card.kind)                                ? "law"
                              : group.structure() && card.kind == InitialKind::uniform ? "prestress"

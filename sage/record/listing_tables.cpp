@@ -197,7 +197,7 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
   std::vector<double> values(most);
   const NodeViews views(model, solution);
   for (int node = 0; node < model.mesh.nodes(); ++node) {
-    if (!active[static_cast<std::size_t>(node)]) continue;
+    if (!active[node]) continue;
     const NodeView view = views.at(node);
     append_integer(text, view.number, 9);
     for (int c = 0; c < 2; ++c) put(text, view.place[c]);
@@ -236,7 +236,7 @@ void points(std::string& text, const Model& model, const Solution& solution,
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       number.clear();
-      append_integer(number, group.element_numbers[static_cast<std::size_t>(e)], 9);
+      append_integer(number, group.element_numbers[e], 9);
       for (int p = 0; p < count; ++p) {
         const Vector2 at = group.element->position(x, p);
         text += number;
@@ -270,9 +270,9 @@ void ends(std::string& text, const Model& model, const Solution& solution) {
     wide_columns(text, fields, model.units);
     text += '\n';
     for (const ElementEnd& end : all) {
-      append_integer(text, group.element_numbers[static_cast<std::size_t>(end.element)], 9);
+      append_integer(text, group.element_numbers[end.element], 9);
       append_integer(text, end.end, 4);
-      append_integer(text, model.mesh.number[static_cast<std::size_t>(end.node)], 9);
+      append_integer(text, model.mesh.number[end.node], 9);
       put(text, end.place.x());
       put(text, end.place.y());
       for (const std::size_t q : quantities) put_wide(text, end.value[q]);

@@ -55,7 +55,7 @@ void add_node_views(std::string& out, const Model& model, const Solution& now, c
     std::vector<double> value(std::max<std::size_t>(field.size(), 3), 0.0);
     for (int node = 0; node < model.mesh.nodes(); ++node) {
       read_field(field, views.at(node), value.data());
-      fmt::format_to(std::back_inserter(out), "{}", model.mesh.number[static_cast<std::size_t>(node)]);
+      fmt::format_to(std::back_inserter(out), "{}", model.mesh.number[node]);
       // A support that is not there gives no reaction.
       for (std::size_t c = 0; c < (vector ? 3u : 1u); ++c)
         add_number(out, vector && std::isnan(value[c]) ? 0.0 : value[c]);
@@ -81,8 +81,7 @@ void add_tensor_view(std::string& out, const Model& model, const NodalLayout& la
     if (!group.solid() || layout.of_group[g].empty()) continue;
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
     for (int e = 0; e < group.elements(); ++e) {
-      fmt::format_to(std::back_inserter(out), "{} {}", group.element_numbers[static_cast<std::size_t>(e)],
-                     order.size());
+      fmt::format_to(std::back_inserter(out), "{} {}", group.element_numbers[e], order.size());
       for (int i : order) {
         const std::size_t at = static_cast<std::size_t>(e) * group.node_count() + static_cast<std::size_t>(i);
         const auto entry = static_cast<std::size_t>(layout.of_group[g][at]);

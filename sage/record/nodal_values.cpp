@@ -27,13 +27,13 @@ struct Walls {
     for (std::size_t g = 0; g < model.groups.size(); ++g) {
       const Group& group = model.groups[g];
       if (!activity.group[g] || !group.structure() || group.entry->corners < 2) continue;
-      if (at_node.empty()) at_node.resize(static_cast<std::size_t>(model.mesh.nodes()), 0);
-      for (int node : group.nodes) at_node[static_cast<std::size_t>(node)] = 1;
+      if (at_node.empty()) at_node.resize(model.mesh.nodes(), 0);
+      for (int node : group.nodes) at_node[node] = 1;
       for (int e = 0; e < group.elements(); ++e)
         pairs.insert(pair_of(group.nodes_of(e)[0], group.nodes_of(e)[1]));
     }
   }
-  bool at(int node) const { return !at_node.empty() && at_node[static_cast<std::size_t>(node)] != 0; }
+  bool at(int node) const { return !at_node.empty() && at_node[node] != 0; }
   // Also where two structures lie along one edge with a node in its middle.
   bool along(const int* nodes, const std::vector<int>& edge) const {
     const auto has = [&](std::size_t end) { return pairs.contains(pair_of(nodes[edge[0]], nodes[edge[end]])); };
@@ -96,7 +96,7 @@ void split_entries(const Model& model, const Activity& activity, NodalLayout& la
         of_entry[layout.of_group[g][item]].push_back({g, item, static_cast<int>(item / group.node_count())});
   }
   for (const auto& [entry, uses] : of_entry) {
-    const int node = layout.node[static_cast<std::size_t>(entry)];
+    const int node = layout.node[entry];
     const std::vector<std::size_t> first = first_of_body(model, walls, node, uses);
     std::map<std::size_t, int> entries{{first[0], entry}};
     for (std::size_t i = 0; i < uses.size(); ++i) {

@@ -39,8 +39,7 @@ const std::array<double, 309>& powers_of_ten() {
 // value x 10^power, which is 1 or more, to the nearest integer; one rounding before.
 inline std::uint64_t scaled(double value, int power) {
   const auto& ten = powers_of_ten();
-  const double half = 0.5 + (power >= 0 ? value * ten[static_cast<std::size_t>(power)]
-                                        : value / ten[static_cast<std::size_t>(-power)]);
+  const double half = 0.5 + (power >= 0 ? value * ten[power] : value / ten[-power]);
   return static_cast<std::uint64_t>(half);
 }
 
@@ -52,7 +51,7 @@ inline Decimal decimal_of(double value, int digits) {
   Decimal decimal;
   decimal.exponent = static_cast<int>((binary * kLog2) >> 32);
   decimal.number = scaled(value, digits - 1 - decimal.exponent);
-  if (decimal.number >= static_cast<std::uint64_t>(powers_of_ten()[static_cast<std::size_t>(digits)]))
+  if (decimal.number >= static_cast<std::uint64_t>(powers_of_ten()[digits]))
     decimal.number = scaled(value, digits - 1 - ++decimal.exponent);
   return decimal;
 }

@@ -33,7 +33,7 @@ inline bool is_output_increment(const Stage& stage, const StepReport& report) {
 }
 
 inline const Stage& stage_of(const Model& model, int stage) {
-  return model.stages[static_cast<std::size_t>(stage)];
+  return model.stages[stage];
 }
 
 }  // namespace sage

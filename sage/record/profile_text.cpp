@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 constexpr double kGiga = 1e9, kMega = 1e6;
 
 const Profile::Phase& phase_at(const Profile& profile, int i) {
-  return profile.phases()[static_cast<std::size_t>(i)];
+  return profile.phases()[i];
 }
 
 int depth_of(const Profile& profile, int phase) {

@@ -24,7 +24,7 @@ bool is_moved(const Fixity& fixity, std::size_t component) {
 // moved without turning, their sum along the motion.  Nothing where no support is moved.
 std::optional<double> force_along(const Model& model, int stage, const Eigen::VectorXd& forces) {
   double work = 0.0, largest = 0.0;
-  for (const Fixity& fixity : model.stages[static_cast<std::size_t>(stage)].fixities)
+  for (const Fixity& fixity : model.stages[stage].fixities)
     for (std::size_t c = 0; c < 2; ++c) {
       if (!is_moved(fixity, c)) continue;
       work += forces[DofMap::displacement(fixity.node, static_cast<int>(c))] * fixity.value[c];
@@ -50,8 +50,8 @@ Plateau plateau_of(const std::vector<double>& forces) {
 }
 
 bool Pushes::needs_nodes(const Model& model, int stage, std::span<const char> flags) {
-  return std::ranges::any_of(model.stages[static_cast<std::size_t>(stage)].fixities, [&](const Fixity& fixity) {
-    return (is_moved(fixity, 0) || is_moved(fixity, 1)) && flags[static_cast<std::size_t>(fixity.node)] != 0;
+  return std::ranges::any_of(model.stages[stage].fixities, [&](const Fixity& fixity) {
+    return (is_moved(fixity, 0) || is_moved(fixity, 1)) && flags[fixity.node] != 0;
   });
 }
 
@@ -60,7 +60,7 @@ void Pushes::increment(const Model& model, const StepReport& report, const Solut
   if (!force) return;
   if (pushes_.empty() || pushes_.back().stage != report.stage) {
     Vector2 gravity = Vector2::Zero();
-    for (int s = 0; s <= report.stage; ++s) gravity += model.stages[static_cast<std::size_t>(s)].gravity;
+    for (int s = 0; s <= report.stage; ++s) gravity += model.stages[s].gravity;
     const Eigen::VectorXd weight = weight_of(model, solution.activity->group, gravity);
     pushes_.push_back({report.stage, report.increments, *force_along(model, report.stage, weight), {}});
   }

@@ -32,14 +32,14 @@ struct Weights {
     Activity activity(model);
     Vector2 gravity = Vector2::Zero();
     for (int s = 0; s < stage; ++s) {
-      activity.enter(model.stages[static_cast<std::size_t>(s)]);
-      gravity += model.stages[static_cast<std::size_t>(s)].gravity;
+      activity.enter(model.stages[s]);
+      gravity += model.stages[s].gravity;
     }
     std::vector<char> both = activity.group;
-    activity.enter(model.stages[static_cast<std::size_t>(stage)]);
+    activity.enter(model.stages[stage]);
     for (std::size_t g = 0; g < both.size(); ++g) both[g] = both[g] && activity.group[g];
     start = weight_of(model, both, gravity);
-    end = weight_of(model, activity.group, gravity + model.stages[static_cast<std::size_t>(stage)].gravity);
+    end = weight_of(model, activity.group, gravity + model.stages[stage].gravity);
   }
 };
 
@@ -52,8 +52,7 @@ std::array<double, 2> released_forces(const Model& model, const Report& report, 
   for (int node : report.nodes)
     for (int c = 0; c < 2; ++c) {
       const int dof = DofMap::displacement(node, c);
-      if (active[static_cast<std::size_t>(node)] && !start.activity->held[static_cast<std::size_t>(dof)])
-        sum[static_cast<std::size_t>(c)] += (*start.internal)[dof] - (*start.external)[dof];
+      if (active[node] && !start.activity->held[dof]) sum[c] += (*start.internal)[dof] - (*start.external)[dof];
     }
   const double largest = start.internal->size() > 0 ? start.internal->lpNorm<Eigen::Infinity>() : 0.0;
   for (double& s : sum)
@@ -63,7 +62,7 @@ std::array<double, 2> released_forces(const Model& model, const Report& report, 
 
 const SolidLaw* specimen_law(const Model& model, const Report& report) {
   if (report.group < 0) return nullptr;
-  const LawRef law = model.material_of(model.groups[static_cast<std::size_t>(report.group)]).law_ref();
+  const LawRef law = model.material_of(model.groups[report.group]).law_ref();
   const auto* solid = std::get_if<const SolidLaw*>(&law);
   return solid != nullptr ? *solid : nullptr;
 }
@@ -327,17 +326,15 @@ bool Reports::wants_states(const Model& model, const StepReport&) const {
 
 bool Reports::wants_nodes(const Model& model, const StepReport& step, std::span<const char> behind) const {
   return std::ranges::any_of(model.reports, [&](const Report& report) {
-    return report.stage <= step.stage && std::ranges::any_of(report.nodes, [&](int node) {
-             return behind[static_cast<std::size_t>(node)] != 0;
-           });
+    return report.stage <= step.stage &&
+           std::ranges::any_of(report.nodes, [&](int node) { return behind[node] != 0; });
   });
 }
 
 void Reports::on_stage_start(const Model& model, int stage, const Solution& solution) {
   if (series_.empty()) return;
   enter_points(model, solution);
-  if (model.stages[static_cast<std::size_t>(stage)].pores == PoreWater::flows)
-    first_pressure_ = std::abs(pressure_);
+  if (model.stages[stage].pores == PoreWater::flows) first_pressure_ = std::abs(pressure_);
   const Weights weights(model, stage);
   for (std::size_t i = 0; i < series_.size(); ++i) {
     Series& series = series_[i];
@@ -352,8 +349,7 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
         series.weight[1][c] += weights.end[DofMap::displacement(node, c)];
       }
     }
-    if (model.stages[static_cast<std::size_t>(stage)].resets_displacements)
-      forget_displacements(series, report, stage);
+    if (model.stages[stage].resets_displacements) forget_displacements(series, report, stage);
     if (stage >= report.stage) count_from_here(series, model, solution);
     if (series.begun || stage < report.stage) continue;
     series.begun = true;
@@ -461,7 +457,7 @@ void Reports::add_triaxial(Series& series, std::size_t index, const StepReport& 
   r.measured_deviator = (r.force - series.start_force) / series.area;
   const double before =
       step.started_at >= 0.0 ? step.started_at : static_cast<double>(step.increment - 1) / step.increments;
-  r.duration = (step.load_factor - before) * model_->stages[static_cast<std::size_t>(step.stage)].duration;
+  r.duration = (step.load_factor - before) * model_->stages[step.stage].duration;
   r.correct_deviator = series.correct ? series.correct->deviator_at(r.axial_strain, r.duration) : kUnknown;
   r.measured_axial = report.cell_pressure + r.measured_deviator;
   r.correct_axial = report.cell_pressure + r.correct_deviator;
@@ -478,21 +474,21 @@ void Reports::add_nodes(Series& series, const Report& report, const StepReport& 
   for (int c = 0; c < 2; ++c) {
     r.displacement[c] = sums.displacement[c] - series.start_displacement[c];
     r.force[c] = sums.force[c];
-    r.held[c] = (1.0 - step.load_factor) * series.released[static_cast<std::size_t>(c)];
+    r.held[c] = (1.0 - step.load_factor) * series.released[c];
   }
   if (model_->has_pores()) {
     const Activity& activity = *solution.activity;
     double time = 0.0, pressure = 0.0, left = 0.0;
     int count = 0, held = 0;
     for (int s = 0; s <= step.stage; ++s)
-      time += model_->stages[static_cast<std::size_t>(s)].duration * (s == step.stage ? step.load_factor : 1.0);
+      time += model_->stages[s].duration * (s == step.stage ? step.load_factor : 1.0);
     time -= step.early;
     for (const int node : report.nodes) {
       const int dof = activity.dof_map.of(node, model_->pore_field());
       if (dof < 0) continue;
       ++count;
       pressure += (*solution.u)[dof];
-      if (!activity.held[static_cast<std::size_t>(dof)]) continue;
+      if (!activity.held[dof]) continue;
       ++held;
       left += (*solution.internal)[dof] - (*solution.external)[dof];
     }

@@ -41,7 +41,7 @@ Frame::Frame(const Model& model) : activity_(model) {
     const ElementTraits& traits = group.element->traits();
     data.state = StateStore(0, traits.law_size, history_of(data.law, traits), false);
     if (!model.water.empty() && group.solid())
-      data.pore.assign(static_cast<std::size_t>(group.elements() * group.element->traits().points), 0.0);
+      data.pore.assign(group.elements() * group.element->traits().points, 0.0);
     groups_.push_back(std::move(data));
   }
 }

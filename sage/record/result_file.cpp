@@ -125,7 +125,7 @@ void describe_table(TableFile& out, const std::string& path, const FieldEntry& f
   constexpr const char* kSigns[] = {"", "compression positive", "along the axes"};
   out.text(path, "meaning", field.meaning);
   out.text(path, "unit", unit_text(field.dimension, model.units));
-  out.text(path, "sign", kSigns[static_cast<std::size_t>(field.sign)]);
+  out.text(path, "sign", kSigns[field.sign]);
   std::vector<std::string> names;
   for (const FieldComponent& component : field.components) names.push_back(component.name);
   if (!names.empty()) out.text(path, "components", joined(names));
@@ -378,7 +378,7 @@ class OwnPart {
     });
     std::vector<std::int32_t> nodes_of;
     nodes_of.reserve(group.nodes.size());
-    for (int node : group.nodes) nodes_of.push_back(model_.mesh.number[static_cast<std::size_t>(node)]);
+    for (int node : group.nodes) nodes_of.push_back(model_.mesh.number[node]);
     out_.whole(in(group, "place"), std::move(places), {2});
     out_.whole(in(group, "nodes"), std::move(nodes_of), {group.node_count()});
     out_.whole(in(group, "active"), std::vector<std::uint8_t>{});

@@ -8,9 +8,7 @@ Sample sample_of(const Model& model, const Probe& probe, const Solution& solutio
     const std::vector<double> value = field_at(*field, model, probe, solution);
     sample.values.insert(sample.values.end(), value.begin(), value.end());
   }
-  if (probe.active())
-    sample.element = model.groups[static_cast<std::size_t>(probe.group)]
-                         .element_numbers[static_cast<std::size_t>(probe.element)];
+  if (probe.active()) sample.element = model.groups[probe.group].element_numbers[probe.element];
   return sample;
 }
 

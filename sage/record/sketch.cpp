@@ -33,7 +33,7 @@ class Area {
  public:
   Area(int width, bool unicode)
       : width_(width), across_(unicode ? 2 : 1), down_(unicode ? 4 : 1), unicode_(unicode) {
-    dots_.assign(static_cast<std::size_t>(width * kRows), 0);
+    dots_.assign(width * kRows, 0);
   }
 
   // Shares of the area, from its lower left corner.
@@ -51,7 +51,7 @@ class Area {
   }
   std::string row(int r) const {
     std::string text;
-    for (int c = 0; c < width_; ++c) text += character(dots_[static_cast<std::size_t>(r * width_ + c)]);
+    for (int c = 0; c < width_; ++c) text += character(dots_[r * width_ + c]);
     text.erase(text.find_last_not_of(' ') + 1);
     return text;
   }
@@ -62,7 +62,7 @@ class Area {
   static int place(double share, int count) {
     return std::clamp(static_cast<int>(std::lround(share * (count - 1))), 0, count - 1);
   }
-  unsigned& cell_at(int column, int row) { return dots_[static_cast<std::size_t>(row * width_ + column)]; }
+  unsigned& cell_at(int column, int row) { return dots_[row * width_ + column]; }
 
   void dot(double x, double y) {
     const int column = place(x, across_ * width_), row = down_ * kRows - 1 - place(y, down_ * kRows);

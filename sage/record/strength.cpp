@@ -9,7 +9,7 @@ namespace sage {
 namespace {
 
 double factor_of(const Model& model, int stage) {
-  return model.stages[static_cast<std::size_t>(stage)].strength_factor;
+  return model.stages[stage].strength_factor;
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void StrengthRows::finish(const Model& model, const Solution& solution) {
   for (int node = 0; node < model.mesh.nodes() && !from_.empty(); ++node)
     for (int c = 0; c < 2; ++c) {
       const int dof = DofMap::displacement(node, c);
-      const double moved = std::abs((*solution.u)[dof] - from_[static_cast<std::size_t>(dof)]);
+      const double moved = std::abs((*solution.u)[dof] - from_[dof]);
       if (moved <= now_.largest) continue;
       now_.largest = moved;
       now_.node = node;
@@ -65,8 +65,7 @@ std::string strength_table(const Model& model, const std::vector<StrengthRow>& r
     text += fmt::format(
         "{:>12.6g}{:>18}{:>24.4E}{:>8}{:>12}\n", row.factor,
         row.equilibrium != 0 ? "found" : fmt::format("none above {:.3g}", row.load_factor), row.largest,
-        row.node < 0 ? std::string("-") : std::to_string(model.mesh.number[static_cast<std::size_t>(row.node)]),
-        row.iterations);
+        row.node < 0 ? std::string("-") : std::to_string(model.mesh.number[row.node]), row.iterations);
   std::size_t asked = 0;
   for (const Stage& stage : model.stages) asked += stage.strength_factor > 0.0 ? 1 : 0;
   if (rows.size() < asked) text += fmt::format("{:>12}\n", fmt::format("{} not tried", asked - rows.size()));

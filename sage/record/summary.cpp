@@ -40,7 +40,7 @@ std::string status_words(const Model& model, const RunResult& result) {
 std::string point_words(const std::array<long, kStatuses>& points) {
   std::string text;
   for (PointStatus s : kAtStrength) {
-    const long count = points[static_cast<std::size_t>(s)];
+    const long count = points[s];
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status_name(s));
   }
   return text.empty() ? "none yielded, slipping or open" : text;
@@ -330,7 +330,7 @@ void RunRecord::on_increment(const Model& model, const StepReport& report, const
     pushes.increment(model, report, solution);
   }
   stages.resize(std::max(stages.size(), static_cast<std::size_t>(report.stage) + 1));
-  StageCount& stage = stages[static_cast<std::size_t>(report.stage)];
+  StageCount& stage = stages[report.stage];
   ++stage.increments;
   stage.iterations += report.total_iterations;
   stage.cuts += report.cuts;
@@ -375,7 +375,7 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
             extremes_table(model, all, model.stages.size() > 1);
   if (reports != nullptr) report_tables(text, model, *reports, digits);
   if (record.result.status == RunStatus::completed) {
-    const auto yielded = record.points[static_cast<std::size_t>(PointStatus::yielded)];
+    const auto yielded = record.points[PointStatus::yielded];
     text += record.pushes.text(model, yielded);
   }
   text += sketch;

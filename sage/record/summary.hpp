@@ -34,8 +34,7 @@ class RunRecord final : public Observer {
     return Pushes::needs_nodes(model, report.stage, behind);
   }
   bool wants_structures(const Model& model, const StepReport& report) const override {
-    return has_structures(model) &&
-           report.increment == model.stages[static_cast<std::size_t>(report.stage)].increments;
+    return has_structures(model) && report.increment == model.stages[report.stage].increments;
   }
   void on_finish(const Model&, const RunResult&) override;
   void exchange(Archive& archive) override;

@@ -14,7 +14,7 @@ namespace {
 // Nodes at which water may pass in a stage, one flag each.
 std::vector<char> permeable_nodes(const Model& model, int stage, const Activity& activity) {
   std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
-  const auto set = [&](int node) { flags[static_cast<std::size_t>(node)] = 1; };
+  const auto set = [&](int node) { flags[node] = 1; };
   for (const auto& [dof, supported] : activity.pores)
     if (supported) set(activity.dof_map.at(dof).node);
   const int field = model.pore_field();
@@ -32,7 +32,7 @@ std::vector<int> joined_boundaries(const Solution& solution, const std::vector<c
   std::vector<int> first(permeable.size());
   std::iota(first.begin(), first.end(), 0);
   const auto root = [&](int node) {
-    while (first[static_cast<std::size_t>(node)] != node) node = first[static_cast<std::size_t>(node)];
+    while (first[node] != node) node = first[node];
     return node;
   };
   std::vector<char> used(permeable.size(), 0);
@@ -42,10 +42,10 @@ std::vector<int> joined_boundaries(const Solution& solution, const std::vector<c
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& edge : group.element->edges()) {
         const int a = group.nodes_of(e)[edge[0]], b = group.nodes_of(e)[edge[1]];
-        used[static_cast<std::size_t>(a)] = used[static_cast<std::size_t>(b)] = 1;
-        if (!permeable[static_cast<std::size_t>(a)] || !permeable[static_cast<std::size_t>(b)]) continue;
+        used[a] = used[b] = 1;
+        if (!permeable[a] || !permeable[b]) continue;
         const int low = std::min(root(a), root(b)), high = std::max(root(a), root(b));
-        first[static_cast<std::size_t>(high)] = low;
+        first[high] = low;
       }
   }
   for (std::size_t node = 0; node < permeable.size(); ++node)
@@ -67,7 +67,7 @@ double taken_up_by(const Model& model, const GroupData& data) {
     element_coordinates(model.mesh, *data.group, e, x);
     element.geometry(x, geometry);
     for (int p = 0; p < traits.points; ++p) {
-      const double w = geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+      const double w = geometry[p * (1 + traits.law_size * traits.dofs)];
       const auto point = static_cast<std::size_t>(e * traits.points + p);
       sum += w * (content != own.end() ? data.state.committed.h[point * history + place]
                                        : data.state.committed.eps[2 * point + 1]);  // gap of an interface
@@ -99,12 +99,12 @@ WaterBalance water_balance(const Model& model, int stage, const Solution& soluti
       balance.elsewhere += left;
       continue;
     }
-    int& at = place[static_cast<std::size_t>(boundary_of[node])];
+    int& at = place[boundary_of[node]];
     if (at < 0) {
       at = static_cast<int>(balance.boundaries.size());
       balance.boundaries.emplace_back();
     }
-    WaterBoundary& boundary = balance.boundaries[static_cast<std::size_t>(at)];
+    WaterBoundary& boundary = balance.boundaries[at];
     boundary.nodes.push_back(static_cast<int>(node));
     boundary.left += left;
   }
@@ -121,7 +121,7 @@ std::string water_balance_table(const Model& model, const WaterBalance& balance)
     text += fmt::format("   {:<52}{:>16.8g}\n", what, value);
   };
   for (const WaterBoundary& boundary : balance.boundaries) {
-    const auto number = [&](int node) { return model.mesh.number[static_cast<std::size_t>(node)]; };
+    const auto number = [&](int node) { return model.mesh.number[node]; };
     row(boundary.nodes.size() == 1
             ? fmt::format("left at node {}", number(boundary.nodes.front()))
             : fmt::format("left through nodes {} to {} ({} nodes)", number(boundary.nodes.front()),

@@ -63,7 +63,7 @@ void lay_triangle(int n, std::vector<Vector2>& places, std::vector<int>& triangl
   }
   for (int j = 0; j < n; ++j)
     for (int i = 0; i + j < n; ++i) {
-      const int a = first[static_cast<std::size_t>(j)] + i, b = first[static_cast<std::size_t>(j) + 1] + i;
+      const int a = first[j] + i, b = first[static_cast<std::size_t>(j) + 1] + i;
       for (const int v : {a, a + 1, b}) triangles.push_back(v);
       if (i + j + 1 < n)
         for (const int v : {a + 1, b + 1, b}) triangles.push_back(v);
@@ -167,8 +167,8 @@ Json loads_json(const Model& model, const Stage& stage) {
   Json nodes = Json::array(), edges = Json::array();
   for (const NodalLoad& load : stage.loads) nodes.push_back({load.node, load.force.x(), load.force.y()});
   for (const EdgeLoad& load : stage.pressures) {
-    const Group& group = model.groups[static_cast<std::size_t>(load.group)];
-    const std::vector<int>& edge = group.element->edges()[static_cast<std::size_t>(load.edge)];
+    const Group& group = model.groups[load.group];
+    const std::vector<int>& edge = group.element->edges()[load.edge];
     const int* const of = group.nodes_of(load.element);
     edges.push_back(
         {of[edge[0]], of[edge[1]], load.normal.x(), load.normal.y(), load.shear.x(), load.shear.y()});

@@ -196,9 +196,9 @@ std::vector<double> at_nodes(const Model& model, const Solution& now, const Fiel
   const std::vector<char> active = active_nodes(model, *now.activity);
   std::vector<double> values(static_cast<std::size_t>(model.mesh.nodes()), NAN), one(field.size());
   for (int node = 0; node < model.mesh.nodes(); ++node) {
-    if (active[static_cast<std::size_t>(node)] == 0) continue;
+    if (active[node] == 0) continue;
     read_field(field, views.at(node), one.data());
-    values[static_cast<std::size_t>(node)] = one[component];
+    values[node] = one[component];
   }
   return values;
 }
@@ -234,7 +234,7 @@ Json field_json(const Model& model, const ShownField& shown) {
   return {{"name", field.name},
           {"meaning", field.meaning},
           {"unit", clean(unit_text(field.dimension, model.units))},
-          {"sign", kSigns[static_cast<std::size_t>(field.sign)]},
+          {"sign", kSigns[field.sign]},
           {"place", field.place() == FieldPlace::node ? "node" : "point"},
           {"vector", field.shape == FieldShape::vector && columns.size() == 2},
           {"columns", std::move(columns)},

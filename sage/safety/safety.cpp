@@ -66,7 +66,7 @@ void take_motion(FactorTrial& trial, const Model& model, const Eigen::VectorXd& 
 
 long inelastic(const std::array<long, kStatuses>& points) {
   long count = 0;
-  for (PointStatus s : kAtStrength) count += points[static_cast<std::size_t>(s)];
+  for (PointStatus s : kAtStrength) count += points[s];
   return count;
 }
 
@@ -82,8 +82,8 @@ std::string percent(double share) {
 
 std::string moved_words(const Model& model, const FactorTrial& trial) {
   if (trial.node < 0) return {};
-  return fmt::format("node {} has moved {:.3g} {}", model.mesh.number[static_cast<std::size_t>(trial.node)],
-                     trial.displacement, model.units.length);
+  return fmt::format("node {} has moved {:.3g} {}", model.mesh.number[trial.node], trial.displacement,
+                     model.units.length);
 }
 
 std::string why_not(const Model& model, const FactorTrial& trial, const Attempt& last) {
@@ -151,7 +151,7 @@ class Finder final : public Trials {
   void keep_other_strengths();
   void insert_trial_stage();
   void move_law_choices();
-  Stage& trial_stage() { return model_.stages[static_cast<std::size_t>(safety_.stages)]; }
+  Stage& trial_stage() { return model_.stages[safety_.stages]; }
   void set_factor(double factor);
   void prepare_stages();
   void run_from_start(double factor);
@@ -214,7 +214,7 @@ std::string material_words(const Material& material) {
 // Of groups that stand at the end of the stages.  A material that chosen ones share with others gets a twin for them.
 void Finder::choose_materials() {
   Activity activity(model_);
-  for (int s = 0; s < safety_.stages; ++s) activity.enter(model_.stages[static_cast<std::size_t>(s)]);
+  for (int s = 0; s < safety_.stages; ++s) activity.enter(model_.stages[s]);
   const std::size_t given = model_.materials.size();
   for (std::size_t m = 0; m < given; ++m) {
     std::vector<Group*> with, without;

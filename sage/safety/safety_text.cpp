@@ -18,7 +18,7 @@ auto to(std::string& text) {
 }
 
 std::string number_of_node(const Model& model, int node) {
-  return node < 0 ? "-" : std::to_string(model.mesh.number[static_cast<std::size_t>(node)]);
+  return node < 0 ? "-" : std::to_string(model.mesh.number[node]);
 }
 
 const char* dilation_words(DilationRule rule) {

@@ -58,7 +58,7 @@ class Arranger {
   }
 
  private:
-  const Vector2& place(int point) const { return section_.points[static_cast<std::size_t>(point)].x; }
+  const Vector2& place(int point) const { return section_.points[point].x; }
 
   void collect(const std::vector<Curve>& cuts) {
     for (std::size_t i = 0; i < section_.lines.size(); ++i) {
@@ -84,9 +84,9 @@ class Arranger {
 
   Ends ends_of(const OutlinePart& part, bool back) const {
     if (part.point >= 0) return {place(part.point), place(part.point)};
-    const std::vector<Use>& uses = lines_[static_cast<std::size_t>(part.line)];
-    const Vector2 a = primitives_[static_cast<std::size_t>(uses.front().primitive)].curve.a;
-    const Vector2 b = primitives_[static_cast<std::size_t>(uses.back().primitive)].curve.b;
+    const std::vector<Use>& uses = lines_[part.line];
+    const Vector2 a = primitives_[uses.front().primitive].curve.a;
+    const Vector2 b = primitives_[uses.back().primitive].curve.b;
     return back ? Ends{b, a} : Ends{a, b};
   }
 
@@ -120,7 +120,7 @@ class Arranger {
       else
         go_to(ends.first);
       if (outline[i].line < 0) continue;
-      std::vector<Use> of_line = lines_[static_cast<std::size_t>(outline[i].line)];
+      std::vector<Use> of_line = lines_[outline[i].line];
       if (back) std::reverse(of_line.begin(), of_line.end());
       for (const Use& use : of_line) uses.push_back({use.primitive, back});
       at = ends.last;
@@ -154,7 +154,7 @@ class Arranger {
         const auto found = cells_.find({i + di, j + dj});
         if (found == cells_.end()) continue;
         for (const int v : found->second)
-          if ((out_.vertices[static_cast<std::size_t>(v)] - x).norm() <= out_.tolerance) return v;
+          if ((out_.vertices[v] - x).norm() <= out_.tolerance) return v;
       }
     out_.vertices.push_back(x);
     cells_[{i, j}].push_back(static_cast<int>(out_.vertices.size()) - 1);
@@ -196,7 +196,7 @@ class Arranger {
   int piece_between(int first, int last, const Curve& curve, bool& turned) {
     auto& there = between_[{std::min(first, last), std::max(first, last)}];
     for (const int p : there) {
-      const Piece& piece = out_.pieces[static_cast<std::size_t>(p)];
+      const Piece& piece = out_.pieces[p];
       if ((piece.curve.at(0.5) - curve.at(0.5)).norm() > 4.0 * out_.tolerance) continue;
       turned = piece.first != first;
       return p;
@@ -216,8 +216,8 @@ class Arranger {
         const auto [to, last] = primitive.breaks[i + 1];
         if (first == last) continue;
         Curve part = primitive.curve.part(from, to);
-        part.a = out_.vertices[static_cast<std::size_t>(first)];
-        part.b = out_.vertices[static_cast<std::size_t>(last)];
+        part.a = out_.vertices[first];
+        part.b = out_.vertices[last];
         bool turned = false;
         primitive.pieces.push_back(piece_between(first, last, part, turned));
         primitive.turned.push_back(turned);
@@ -228,7 +228,7 @@ class Arranger {
   std::vector<Way> ways_along(const std::vector<Use>& uses) const {
     std::vector<Way> ways;
     for (const Use& use : uses) {
-      const Primitive& primitive = primitives_[static_cast<std::size_t>(use.primitive)];
+      const Primitive& primitive = primitives_[use.primitive];
       const std::size_t n = primitive.pieces.size();
       for (std::size_t k = 0; k < n; ++k) {
         const std::size_t i = use.back ? n - 1 - k : k;
@@ -246,9 +246,9 @@ class Arranger {
       const bool structure = line.beam || line.interface != InterfaceSide::none;
       int reported = -1;
       for (const Way& way : out_.lines.back()) {
-        Piece& piece = out_.pieces[static_cast<std::size_t>(way.piece)];
+        Piece& piece = out_.pieces[way.piece];
         if (line.size > 0.0) piece.size = piece.size > 0.0 ? std::min(piece.size, line.size) : line.size;
-        int& other = owner[static_cast<std::size_t>(way.piece)];
+        int& other = owner[way.piece];
         if (structure && other >= 0 && other != reported)
           report_common(static_cast<int>(i), reported = other, piece);
         if (structure) other = static_cast<int>(i);
@@ -279,20 +279,17 @@ class Arranger {
         faults_.push_back({"S255", SectionItem::area, loop.area, what + " encloses nothing"});
       else if (twice != seen.end())
         faults_.push_back({"S255", SectionItem::area, loop.area,
-                           what + " crosses or touches itself at " +
-                               text_of(out_.vertices[static_cast<std::size_t>(*twice)])});
+                           what + " crosses or touches itself at " + text_of(out_.vertices[*twice])});
     }
   }
 
   void mark_isolated() {
     out_.isolated.assign(out_.vertices.size(), 0);
-    for (const int v : out_.vertex_of_point) out_.isolated[static_cast<std::size_t>(v)] = 1;
+    for (const int v : out_.vertex_of_point) out_.isolated[v] = 1;
     for (const SectionLine& line : section_.lines)
-      if (line.centre >= 0)
-        out_.isolated[static_cast<std::size_t>(out_.vertex_of_point[static_cast<std::size_t>(line.centre)])] =
-            0;
+      if (line.centre >= 0) out_.isolated[out_.vertex_of_point[line.centre]] = 0;
     for (const Piece& piece : out_.pieces)
-      for (const int v : {piece.first, piece.last}) out_.isolated[static_cast<std::size_t>(v)] = 0;
+      for (const int v : {piece.first, piece.last}) out_.isolated[v] = 0;
   }
 
   const Section& section_;
@@ -309,7 +306,7 @@ class Arranger {
 
 std::vector<Curve> curves_of(const Section& section, const SectionLine& line) {
   std::vector<Curve> curves;
-  const auto place = [&](int i) { return section.points[static_cast<std::size_t>(i)].x; };
+  const auto place = [&](int i) { return section.points[i].x; };
   const double sense = line.clockwise ? -1.0 : 1.0;
   if (line.shape == LineShape::polyline) {
     for (std::size_t i = 0; i + 1 < line.points.size(); ++i)

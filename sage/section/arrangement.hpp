@@ -49,17 +49,17 @@ struct Arrangement {
   std::vector<std::array<int, 2>> side;  // by piece: the face to its left and to its right, -1 outside of all
 
   int first_of(Way way) const {
-    const Piece& piece = pieces[static_cast<std::size_t>(way.piece)];
+    const Piece& piece = pieces[way.piece];
     return way.back ? piece.last : piece.first;
   }
   int last_of(Way way) const {
-    const Piece& piece = pieces[static_cast<std::size_t>(way.piece)];
+    const Piece& piece = pieces[way.piece];
     return way.back ? piece.first : piece.last;
   }
-  int face_left_of(Way way) const { return side[static_cast<std::size_t>(way.piece)][way.back ? 1 : 0]; }
+  int face_left_of(Way way) const { return side[way.piece][way.back ? 1 : 0]; }
   int area_left_of(Way way) const {
     const int face = face_left_of(way);
-    return face < 0 ? -1 : faces[static_cast<std::size_t>(face)].area;
+    return face < 0 ? -1 : faces[face].area;
   }
 };
 

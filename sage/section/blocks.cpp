@@ -29,8 +29,8 @@ std::optional<Sides> sides_of(const Arrangement& a, const Face& face) {
   for (std::size_t i = 0; i < n; ++i) {
     const Way before = face.outer[(i + n - 1) % n], way = face.outer[i];
     if (a.face_left_of(way) == a.face_left_of({way.piece, !way.back})) return std::nullopt;
-    const Vector2 in = direction(a.pieces[static_cast<std::size_t>(before.piece)].curve, before.back, true);
-    const Vector2 out = direction(a.pieces[static_cast<std::size_t>(way.piece)].curve, way.back, false);
+    const Vector2 in = direction(a.pieces[before.piece].curve, before.back, true);
+    const Vector2 out = direction(a.pieces[way.piece].curve, way.back, false);
     const double turn = std::atan2(cross(in, out), in.dot(out));
     if (turn < -kTurn) return std::nullopt;
     if (turn > kTurn) corners.push_back(i);
@@ -45,7 +45,7 @@ std::optional<Sides> sides_of(const Arrangement& a, const Face& face) {
 std::vector<int> nodes_along(const FlatMesh& mesh, const std::vector<Way>& ways) {
   std::vector<int> nodes;
   for (const Way& way : ways) {
-    std::vector<int> piece = mesh.on_piece[static_cast<std::size_t>(way.piece)];
+    std::vector<int> piece = mesh.on_piece[way.piece];
     if (way.back) std::reverse(piece.begin(), piece.end());
     nodes.insert(nodes.end(), piece.begin() + (nodes.empty() ? 0 : 1), piece.end());
   }
@@ -56,12 +56,12 @@ class Classes {
  public:
   explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
   int of(int i) {
-    while (parent_[static_cast<std::size_t>(i)] != i) i = parent_[static_cast<std::size_t>(i)];
+    while (parent_[i] != i) i = parent_[i];
     return i;
   }
   void join(int i, int j) {
     const int a = of(i), b = of(j);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    parent_[std::max(a, b)] = std::min(a, b);
   }
 
  private:
@@ -101,7 +101,7 @@ class Grid {
   Vector2 between(const FlatMesh& mesh, std::size_t i, std::size_t j) const {
     const double s = static_cast<double>(i) / static_cast<double>(columns_);
     const double t = static_cast<double>(j) / static_cast<double>(rows_);
-    const auto x = [&](int node) -> const Vector2& { return mesh.x[static_cast<std::size_t>(node)]; };
+    const auto x = [&](int node) -> const Vector2& { return mesh.x[node]; };
     return (1 - t) * x(bottom_[i]) + t * x(top_[i]) + (1 - s) * x(left_[j]) + s * x(right_[j]) -
            (1 - s) * (1 - t) * x(bottom_.front()) - s * (1 - t) * x(bottom_.back()) - s * t * x(top_.back()) -
            (1 - s) * t * x(top_.front());
@@ -166,8 +166,8 @@ std::vector<Curve> cuts_through(const Arrangement& arrangement) {
     const Vector2 d = (piece.curve.b - piece.curve.a).cwiseAbs();
     if (piece.curve.arc || d.minCoeff() > arrangement.tolerance) return {};
     for (const int v : {piece.first, piece.last}) {
-      low = low.cwiseMin(arrangement.vertices[static_cast<std::size_t>(v)]);
-      high = high.cwiseMax(arrangement.vertices[static_cast<std::size_t>(v)]);
+      low = low.cwiseMin(arrangement.vertices[v]);
+      high = high.cwiseMax(arrangement.vertices[v]);
     }
   }
   for (std::size_t v = 0; v < arrangement.vertices.size(); ++v) {

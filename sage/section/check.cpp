@@ -21,12 +21,12 @@ class DataCheck {
     if (section_.nodes_per_edge != 2 && section_.nodes_per_edge != 3)
       add(SectionItem::section, 0, fmt::format("edges have 2 or 3 nodes, not {}", section_.nodes_per_edge));
     for (int i = 0; i < count(section_.points); ++i) {
-      const SectionPoint& point = section_.points[static_cast<std::size_t>(i)];
+      const SectionPoint& point = section_.points[i];
       if (!point.x.allFinite()) add(SectionItem::point, i, "the coordinates must be finite numbers");
       size(SectionItem::point, i, point.size);
     }
-    for (int i = 0; i < count(section_.lines); ++i) check_line(i, section_.lines[static_cast<std::size_t>(i)]);
-    for (int i = 0; i < count(section_.areas); ++i) check_area(i, section_.areas[static_cast<std::size_t>(i)]);
+    for (int i = 0; i < count(section_.lines); ++i) check_line(i, section_.lines[i]);
+    for (int i = 0; i < count(section_.areas); ++i) check_area(i, section_.areas[i]);
   }
 
  private:
@@ -73,7 +73,7 @@ class DataCheck {
     }
   }
 
-  const Vector2& place(int point) const { return section_.points[static_cast<std::size_t>(point)].x; }
+  const Vector2& place(int point) const { return section_.points[point].x; }
 
   void check_arc(int i, const SectionLine& line) {
     const double first = (place(line.points[0]) - place(line.centre)).norm();
@@ -132,7 +132,7 @@ class DataCheck {
 
 std::string name_of(const Section& section, SectionItem item, int index) {
   const auto named = [index](const char* kind, const auto& list) {
-    const std::string& name = list[static_cast<std::size_t>(index)].name;
+    const std::string& name = list[index].name;
     return name.empty() ? fmt::format("{} {}", kind, index + 1) : fmt::format("{} {}", kind, name);
   };
   switch (item) {

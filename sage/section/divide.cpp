@@ -74,7 +74,7 @@ namespace {
 
 // Whether edges that share no more than an end have another place in common.
 bool edges_cross(const std::vector<Vector2>& x, const int* one, const int* other) {
-  const auto place = [&](int node) -> const Vector2& { return x[static_cast<std::size_t>(node)]; };
+  const auto place = [&](int node) -> const Vector2& { return x[node]; };
   const auto side = [&](const int* edge, int node) {
     return cross(place(edge[1]) - place(edge[0]), place(node) - place(edge[0]));
   };
@@ -156,19 +156,15 @@ FlatMesh into_quadrilaterals(const Arrangement& arrangement, const FlatMesh& coa
     std::array<int, 4> mid{};
     Vector2 sum = Vector2::Zero();
     for (int i = 0; i < n; ++i) {
-      const int a = cell.nodes[static_cast<std::size_t>(i)],
-                b = cell.nodes[static_cast<std::size_t>((i + 1) % n)];
+      const int a = cell.nodes[i], b = cell.nodes[(i + 1) % n];
       const auto [it, made] = middle.try_emplace(edge_of(a, b), -1);
-      if (made)
-        it->second = add(0.5 * (coarse.x[static_cast<std::size_t>(a)] + coarse.x[static_cast<std::size_t>(b)]));
-      mid[static_cast<std::size_t>(i)] = it->second;
-      sum += fine.x[static_cast<std::size_t>(it->second)];
+      if (made) it->second = add(0.5 * (coarse.x[a] + coarse.x[b]));
+      mid[i] = it->second;
+      sum += fine.x[it->second];
     }
     const int centre = add(sum / n);
     for (int i = 0; i < n; ++i)
-      fine.cells.push_back({{cell.nodes[static_cast<std::size_t>(i)], mid[static_cast<std::size_t>(i)], centre,
-                             mid[static_cast<std::size_t>((i + n - 1) % n)]},
-                            cell.area});
+      fine.cells.push_back({{cell.nodes[i], mid[i], centre, mid[(i + n - 1) % n]}, cell.area});
   }
   return fine;
 }
@@ -185,9 +181,9 @@ struct Join {
 double squareness(const FlatMesh& mesh, const std::array<int, 4>& nodes) {
   double worst = 1.0;
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vector2& here = mesh.x[static_cast<std::size_t>(nodes[i])];
-    const Vector2 out = mesh.x[static_cast<std::size_t>(nodes[(i + 1) % 4])] - here;
-    const Vector2 in = mesh.x[static_cast<std::size_t>(nodes[(i + 3) % 4])] - here;
+    const Vector2& here = mesh.x[nodes[i]];
+    const Vector2 out = mesh.x[nodes[(i + 1) % 4]] - here;
+    const Vector2 in = mesh.x[nodes[(i + 3) % 4]] - here;
     const double angle = std::atan2(cross(out, in), out.dot(in));
     worst = std::min(worst, 1.0 - std::abs(angle - 0.5 * kPi) / (0.5 * kPi));
   }
@@ -207,11 +203,10 @@ void join_triangles(FlatMesh& mesh) {
   std::vector<Join> joins;
   for (const auto& [edge, two] : of_edge) {
     if (two.size() != 2) continue;
-    const Cell& cell = mesh.cells[static_cast<std::size_t>(two[0].first)];
-    const Cell& other = mesh.cells[static_cast<std::size_t>(two[1].first)];
+    const Cell& cell = mesh.cells[two[0].first];
+    const Cell& other = mesh.cells[two[1].first];
     const auto i = static_cast<std::size_t>(two[0].second);
-    const std::array<int, 4> nodes{cell.nodes[i], cell.nodes[(i + 1) % 3],
-                                   other.nodes[static_cast<std::size_t>(two[1].second)],
+    const std::array<int, 4> nodes{cell.nodes[i], cell.nodes[(i + 1) % 3], other.nodes[two[1].second],
                                    cell.nodes[(i + 2) % 3]};
     // Rounded, so that equal pairs keep their order on any processor.
     const double quality = std::round(1e6 * squareness(mesh, nodes));
@@ -221,11 +216,10 @@ void join_triangles(FlatMesh& mesh) {
                    [](const Join& a, const Join& b) { return a.quality > b.quality; });
   std::vector<char> gone(mesh.cells.size(), 0);
   for (const Join& join : joins) {
-    if (gone[static_cast<std::size_t>(join.first)] != 0 || gone[static_cast<std::size_t>(join.second)] != 0)
-      continue;
-    gone[static_cast<std::size_t>(join.first)] = 2;
-    gone[static_cast<std::size_t>(join.second)] = 1;
-    mesh.cells[static_cast<std::size_t>(join.first)].nodes = join.nodes;
+    if (gone[join.first] != 0 || gone[join.second] != 0) continue;
+    gone[join.first] = 2;
+    gone[join.second] = 1;
+    mesh.cells[join.first].nodes = join.nodes;
   }
   std::size_t kept = 0;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
@@ -237,9 +231,7 @@ double worst_corner(const FlatMesh& mesh, const Cell& cell) {
   const int n = cell.corners();
   double worst = 1.0;
   for (int i = 0; i < n; ++i) {
-    const auto node = [&](int k) {
-      return mesh.x[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(k % n)])];
-    };
+    const auto node = [&](int k) { return mesh.x[cell.nodes[static_cast<std::size_t>(k % n)]]; };
     const Vector2 out = node(i + 1) - node(i), in = node(i + n - 1) - node(i);
     worst = std::min(worst, cross(out, in) / std::max(out.norm() * in.norm(), 1e-300));
   }
@@ -250,16 +242,14 @@ void smooth(FlatMesh& mesh, std::size_t fixed_nodes) {
   std::vector<std::vector<int>> cells_of(mesh.x.size());
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (int i = 0; i < mesh.cells[c].corners(); ++i)
-      cells_of[static_cast<std::size_t>(mesh.cells[c].nodes[static_cast<std::size_t>(i)])].push_back(
-          static_cast<int>(c));
+      cells_of[mesh.cells[c].nodes[i]].push_back(static_cast<int>(c));
   std::vector<char> fixed(mesh.x.size(), 0);
   std::fill(fixed.begin(), fixed.begin() + static_cast<std::ptrdiff_t>(fixed_nodes), 1);
   for (const std::vector<int>& nodes : mesh.on_piece)
-    for (const int node : nodes) fixed[static_cast<std::size_t>(node)] = 1;
+    for (const int node : nodes) fixed[node] = 1;
   const auto worst_around = [&](std::size_t v) {
     double worst = 1.0;
-    for (const int c : cells_of[v])
-      worst = std::min(worst, worst_corner(mesh, mesh.cells[static_cast<std::size_t>(c)]));
+    for (const int c : cells_of[v]) worst = std::min(worst, worst_corner(mesh, mesh.cells[c]));
     return worst;
   };
   for (int round = 0; round < 4; ++round)
@@ -268,12 +258,12 @@ void smooth(FlatMesh& mesh, std::size_t fixed_nodes) {
       Vector2 sum = Vector2::Zero();
       int count = 0;
       for (const int c : cells_of[v]) {
-        const Cell& cell = mesh.cells[static_cast<std::size_t>(c)];
+        const Cell& cell = mesh.cells[c];
         for (int i = 0; i < cell.corners(); ++i) {
-          if (cell.nodes[static_cast<std::size_t>(i)] != static_cast<int>(v)) continue;
+          if (cell.nodes[i] != static_cast<int>(v)) continue;
           const int n = cell.corners();
-          sum += mesh.x[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>((i + 1) % n)])];
-          sum += mesh.x[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>((i + n - 1) % n)])];
+          sum += mesh.x[cell.nodes[(i + 1) % n]];
+          sum += mesh.x[cell.nodes[(i + n - 1) % n]];
           count += 2;
         }
       }

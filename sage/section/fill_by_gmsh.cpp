@@ -22,7 +22,7 @@ struct SizeOfGmsh {
 
 double size_for_gmsh(int dimension, int tag, double x, double y, double /*z*/, void* data) {
   const SizeOfGmsh& of = *static_cast<const SizeOfGmsh*>(data);
-  const int area = dimension == 2 ? of.area_of_surface[static_cast<std::size_t>(tag)] : -1;
+  const int area = dimension == 2 ? of.area_of_surface[tag] : -1;
   const Vector2 place(x, y);
   return of.factor * (area >= 0 ? of.sizes->at(place, area) : of.sizes->at(place));
 }
@@ -76,7 +76,7 @@ class GmshRun {
 
   void add_point(int node) {
     if (!points_.insert(node).second) return;
-    const Vector2& x = mesh_.x[static_cast<std::size_t>(node)];
+    const Vector2& x = mesh_.x[node];
     g_.ModelGeoAddPoint(x.x(), x.y(), 0.0, 0.0, tag(static_cast<std::size_t>(node)), &error_);
   }
 
@@ -135,11 +135,10 @@ class GmshRun {
   double area_of(const Cycle& loop) const {
     double twice = 0.0;
     for (const Way& way : loop) {
-      const std::vector<int>& nodes = mesh_.on_piece[static_cast<std::size_t>(way.piece)];
+      const std::vector<int>& nodes = mesh_.on_piece[way.piece];
       for (std::size_t k = 0; k + 1 < nodes.size(); ++k) {
-        const Vector2& origin = mesh_.x[static_cast<std::size_t>(a_.first_of(loop.front()))];
-        const double part = cross(mesh_.x[static_cast<std::size_t>(nodes[k])] - origin,
-                                  mesh_.x[static_cast<std::size_t>(nodes[k + 1])] - origin);
+        const Vector2& origin = mesh_.x[a_.first_of(loop.front())];
+        const double part = cross(mesh_.x[nodes[k]] - origin, mesh_.x[nodes[k + 1]] - origin);
         twice += way.back ? -part : part;
       }
     }
@@ -186,7 +185,7 @@ class GmshRun {
     for (std::size_t f = 0; f < a_.faces.size(); ++f) {
       if (a_.faces[f].area < 0) continue;
       meshed.push_back(f);
-      area_of_surface_[static_cast<std::size_t>(tag(f))] = a_.faces[f].area;
+      area_of_surface_[tag(f)] = a_.faces[f].area;
       add_face(f);
       for (const int v : a_.faces[f].vertices) add_point(v);
     }
@@ -240,7 +239,7 @@ class GmshRun {
         Cell cell;
         for (std::size_t c = 0; c < 3; ++c) cell.nodes[c] = node_of_tag_.at(nodes[k][i + c]);
         cell.area = a_.faces[f].area;
-        const auto x = [&](std::size_t c) { return mesh_.x[static_cast<std::size_t>(cell.nodes[c])]; };
+        const auto x = [&](std::size_t c) { return mesh_.x[cell.nodes[c]]; };
         const double twice = cross(x(1) - x(0), x(2) - x(0));
         if (twice < 0.0) std::swap(cell.nodes[1], cell.nodes[2]);
         sum += 0.5 * std::abs(twice);

@@ -131,11 +131,11 @@ class Making {
     std::vector<char> among(mesh_.x.size(), 0);
     for (const Cell* cell : cells)
       for (const int node : cell->nodes)
-        if (node >= 0) among[static_cast<std::size_t>(node)] = 1;
+        if (node >= 0) among[node] = 1;
     std::vector<int> arcs;
     for (std::size_t p = 0; p < arrangement_.pieces.size(); ++p) {
       const std::vector<int>& nodes = mesh_.on_piece[p];
-      const auto is_among = [&](int node) { return among[static_cast<std::size_t>(node)] != 0; };
+      const auto is_among = [&](int node) { return among[node] != 0; };
       if (arrangement_.pieces[p].curve.arc && std::any_of(nodes.begin(), nodes.end(), is_among))
         arcs.push_back(static_cast<int>(p));
     }
@@ -146,7 +146,7 @@ class Making {
   bool refine(const std::vector<int>& arcs) {
     bool any = false;
     for (const int p : arcs) {
-      double& edges = edges_of_circle_[static_cast<std::size_t>(p)];
+      double& edges = edges_of_circle_[p];
       if (edges > kMostEdgesOfCircle) continue;
       edges *= 2.0;
       any = true;
@@ -157,7 +157,7 @@ class Making {
   [[noreturn]] void refuse_cell(const Cell& cell) const {
     refuse("S263", SectionItem::area, cell.area,
            name_of(section_, SectionItem::area, cell.area) + " can't be meshed around " +
-               text_of(mesh_.x[static_cast<std::size_t>(cell.nodes[0])]) +
+               text_of(mesh_.x[cell.nodes[0]]) +
                ": an element there has no area or is turned inside out; smaller sizes there may help");
   }
 

@@ -57,7 +57,7 @@ void SizeField::add_short_pieces(const Arrangement& arrangement, const std::vect
 }
 
 double SizeField::limit_of(int area) const {
-  return area < 0 ? default_ : limits_[static_cast<std::size_t>(area)];
+  return area < 0 ? default_ : limits_[area];
 }
 
 double SizeField::at(const Vector2& x) const {
@@ -76,7 +76,7 @@ double SizeField::elements(const Arrangement& arrangement) const {
     if (face.area < 0) continue;
     double twice = 0.0;
     for (const Way& way : face.outer) {
-      const Curve& curve = arrangement.pieces[static_cast<std::size_t>(way.piece)].curve;
+      const Curve& curve = arrangement.pieces[way.piece].curve;
       twice +=
           (way.back ? -1.0 : 1.0) * cross(curve.a - arrangement.vertices[0], curve.b - arrangement.vertices[0]);
     }

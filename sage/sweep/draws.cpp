@@ -121,8 +121,7 @@ Eigen::MatrixXd normal_factor(const std::vector<Distribution>& variables, const 
   Eigen::MatrixXd normal = Eigen::MatrixXd::Identity(count, count);
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j < i; ++j)
-      normal(i, j) = normal(j, i) = normal_correlation(
-          variables[static_cast<std::size_t>(i)], variables[static_cast<std::size_t>(j)], correlation(i, j));
+      normal(i, j) = normal(j, i) = normal_correlation(variables[i], variables[j], correlation(i, j));
   const Eigen::LLT<Eigen::MatrixXd> factors(normal);
   if (factors.info() != Eigen::Success)
     throw std::invalid_argument("the correlation matrix is not positive definite: no variables have it");
@@ -140,8 +139,7 @@ Eigen::MatrixXd draw(const std::vector<Distribution>& variables, const Eigen::Ma
     for (Eigen::Index i = 0; i < count; ++i)  // the middle of one of 2^53 parts
       z[i] = normal_quantile((static_cast<double>(numbers() >> 11) + 0.5) * 0x1p-53);
     const Eigen::VectorXd together = lower.triangularView<Eigen::Lower>() * z;
-    for (Eigen::Index i = 0; i < count; ++i)
-      values(row, i) = variables[static_cast<std::size_t>(i)].at(together[i]);
+    for (Eigen::Index i = 0; i < count; ++i) values(row, i) = variables[i].at(together[i]);
   }
   return values;
 }

@@ -231,10 +231,9 @@ Eigen::MatrixXd StudyReader::correlation(const toml::node* node, const std::vect
                   fmt::join(names, ", "));
   if (rows == nullptr || rows->size() != names.size()) wrong(*node, wanted);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const toml::array* row = (*rows)[static_cast<std::size_t>(i)].as_array();
+    const toml::array* row = (*rows)[i].as_array();
     if (row == nullptr || row->size() != names.size()) wrong(*node, wanted);
-    for (Eigen::Index j = 0; j < count; ++j)
-      matrix(i, j) = number((*row)[static_cast<std::size_t>(j)], "correlation");
+    for (Eigen::Index j = 0; j < count; ++j) matrix(i, j) = number((*row)[j], "correlation");
   }
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j <= i; ++j)
@@ -283,8 +282,8 @@ void StudyReader::add_draws(Block& block, const std::vector<FieldVariable>& vari
         throw std::invalid_argument("a variable with a correlation_length and one without are not correlated");
   std::vector<Distribution> numbers;
   std::vector<FieldVariable> fields;
-  for (const Eigen::Index a : kinds[0]) numbers.push_back(variables[static_cast<std::size_t>(a)].distribution);
-  for (const Eigen::Index b : kinds[1]) fields.push_back(variables[static_cast<std::size_t>(b)]);
+  for (const Eigen::Index a : kinds[0]) numbers.push_back(variables[a].distribution);
+  for (const Eigen::Index b : kinds[1]) fields.push_back(variables[b]);
   const auto wide = static_cast<unsigned long long>(seed);
   const Eigen::MatrixXd values = draw(numbers, matrix(kinds[0], kinds[0]), draws, wide);
   if (!fields.empty())
@@ -412,7 +411,7 @@ Study StudyReader::read() {
   study_.field_of.assign(study_.names.size(), -1);
   for (std::size_t f = 0; f < field_names_.size(); ++f) {
     const auto name = std::ranges::find(study_.names, field_names_[f]) - study_.names.begin();
-    study_.field_of[static_cast<std::size_t>(name)] = static_cast<int>(f);
+    study_.field_of[name] = static_cast<int>(f);
   }
   if (study_.cases.empty()) wrong(root_, "the study has no case: give [grid], [pairs], [random] or [[case]]");
   return std::move(study_);

@@ -283,7 +283,7 @@ const std::vector<Parameter>& table() {
 }
 
 int whole(std::span<const double> values, int place, int lowest, int highest) {
-  const double value = values[static_cast<std::size_t>(place)];
+  const double value = values[place];
   if (!(value >= lowest && value <= highest) || value != static_cast<int>(value))
     throw ParameterError(
         "S805", place,

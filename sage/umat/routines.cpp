@@ -24,7 +24,7 @@ Eigen::Matrix3d tensor(const double* s, int lstr, int ndi, int nshr) {
   for (int i = 0; i < ndi; ++i) t(i, i) = s[i];
   constexpr std::array<std::array<int, 2>, 3> kPlaces{{{0, 1}, {0, 2}, {1, 2}}};
   for (int i = 0; i < nshr; ++i) {
-    const auto [row, column] = kPlaces[static_cast<std::size_t>(i)];
+    const auto [row, column] = kPlaces[i];
     t(row, column) = t(column, row) = (lstr == 2 ? 0.5 : 1.0) * s[ndi + i];
   }
   return t;
@@ -51,7 +51,7 @@ std::string trimmed(const char* text, std::size_t length) {
 
 std::array<std::mutex, 101> mutexes;
 std::mutex* mutex_of(const int* id) {
-  return *id >= 0 && *id <= 100 ? &mutexes[static_cast<std::size_t>(*id)] : nullptr;
+  return *id >= 0 && *id <= 100 ? &mutexes[*id] : nullptr;
 }
 
 }  // namespace
@@ -95,8 +95,7 @@ void rotsig_(const double* s, const double* r, double* sprime, const int* lstr, 
   const Eigen::Matrix3d t = R * tensor(s, *lstr, *ndi, *nshr) * R.transpose();
   const std::array<double, 3> shears{t(0, 1), t(0, 2), t(1, 2)};
   for (int i = 0; i < *ndi; ++i) sprime[i] = t(i, i);
-  for (int i = 0; i < *nshr; ++i)
-    sprime[*ndi + i] = (*lstr == 2 ? 2.0 : 1.0) * shears[static_cast<std::size_t>(i)];
+  for (int i = 0; i < *nshr; ++i) sprime[*ndi + i] = (*lstr == 2 ? 2.0 : 1.0) * shears[i];
 }
 
 void xit_() {

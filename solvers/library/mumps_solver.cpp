@@ -43,7 +43,7 @@ class MumpsSolver final : public MatrixSolver {
     // MUMPS compares with the norm of the scaled matrix; a zero matrix has none.
     const std::span<const double> maxima = row_maxima();
     for (int i = 0; i < n; ++i)
-      if (maxima[static_cast<std::size_t>(i)] == 0.0) throw_singular(i, 0.0, traits().name);
+      if (maxima[i] == 0.0) throw_singular(i, 0.0, traits().name);
     const LibraryCall call(n);
     mumps_.cntl[2] = singular_pivot_ratio(n);
     control(14) = 30;  // per cent of working space beyond the estimate
@@ -66,7 +66,7 @@ class MumpsSolver final : public MatrixSolver {
     row_.clear();
     column_.clear();
     for (int column = 0; column < n; ++column)
-      for (int k = matrix().column_start()[static_cast<std::size_t>(column)];
+      for (int k = matrix().column_start()[column];
            k < matrix().column_start()[static_cast<std::size_t>(column) + 1]; ++k) {
         row_.push_back(matrix().row()[static_cast<std::size_t>(k)] + 1);
         column_.push_back(column + 1);

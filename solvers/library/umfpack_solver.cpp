@@ -89,7 +89,7 @@ class UmfpackSolver final : public MatrixSolver {
                                            nullptr, pivot.data(), &multiply, row_scale.data(), numeric_.get()));
     PivotCheck check(traits().name, row_maxima());
     for (std::size_t k = 0; k < n; ++k) {
-      const double scale = row_scale[static_cast<std::size_t>(row[k])];
+      const double scale = row_scale[row[k]];
       check.take(static_cast<int>(row[k]), multiply ? pivot[k] / scale : pivot[k] * scale);
     }
     if (known_singular)

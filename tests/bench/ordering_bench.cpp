@@ -69,7 +69,7 @@ void bench(int n) {
   AssembledMatrix matrix;
   matrix.analyse(graph, system.elements, true);
   matrix.clear();
-  for (int e = 0; e < system.elements.count(); ++e) matrix.add(e, system.K[static_cast<std::size_t>(e)].data());
+  for (int e = 0; e < system.elements.count(); ++e) matrix.add(e, system.K[e].data());
   LongColumns columns(matrix);
   cholmod_sparse K{};
   K.nrow = K.ncol = static_cast<std::size_t>(system.equations);

@@ -46,8 +46,7 @@ void run_once(sage::LinearSolver& solver, const System& system, std::vector<doub
   const std::vector<double> b(x.size(), 1.0);
   time_into(times.add, [&] {
     solver.clear();
-    for (int e = 0; e < system.elements.count(); ++e)
-      solver.add(e, system.K[static_cast<std::size_t>(e)].data());
+    for (int e = 0; e < system.elements.count(); ++e) solver.add(e, system.K[e].data());
   });
   time_into(times.factorise, [&] { solver.factorise(); });
   time_into(times.solve, [&] { static_cast<void>(solver.solve(b, x)); });

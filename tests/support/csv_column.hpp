@@ -25,7 +25,7 @@ inline std::vector<double> csv_column(const std::string& csv, const std::string&
       at = std::find_if(cells.begin(), cells.end(), is) - cells.begin();
       if (at == std::ssize(cells)) return {};
     } else {
-      const std::string& cell = cells.at(static_cast<std::size_t>(at));
+      const std::string& cell = cells.at(at);
       numbers.push_back(cell.empty() ? std::numeric_limits<double>::quiet_NaN() : std::stod(cell));
     }
   }

@@ -212,7 +212,7 @@ TEST(Umat, ContextIsTrue) {
   }
   const auto value = [&](const std::string& name) {
     const auto at = std::find(names.begin(), names.end(), name) - names.begin();
-    return std::stod(values.at(static_cast<std::size_t>(at)));
+    return std::stod(values.at(at));
   };
   EXPECT_EQ(value("SDV1"), 2.0);                 // NOEL
   EXPECT_EQ(value("SDV2"), 4.0);                 // NPT: from 1

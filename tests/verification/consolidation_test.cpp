@@ -161,7 +161,7 @@ struct TimeObserver final : Observer {
   void on_increment(const Model& model, const StepReport& step, const Solution&) override {
     double time = -step.early;
     for (int s = 0; s <= step.stage; ++s)
-      time += model.stages[static_cast<std::size_t>(s)].duration * (s == step.stage ? step.load_factor : 1.0);
+      time += model.stages[s].duration * (s == step.stage ? step.load_factor : 1.0);
     times.push_back(time);
   }
 };
@@ -225,13 +225,11 @@ struct TwoLayers {
     const std::vector<int> lower = column.mesh.row(rows);
     std::vector<int> upper;
     for (const int node : lower) {
-      input.nodes.push_back(input.nodes[static_cast<std::size_t>(node - 1)]);
+      input.nodes.push_back(input.nodes[node - 1]);
       upper.push_back(static_cast<int>(input.nodes.size()));
     }
     for (std::vector<int>& nodes : input.groups[0].elements) {
-      const auto is_above = [&](int node) {
-        return input.nodes[static_cast<std::size_t>(node - 1)].y() > 0.5 + 1e-9;
-      };
+      const auto is_above = [&](int node) { return input.nodes[node - 1].y() > 0.5 + 1e-9; };
       if (std::ranges::none_of(nodes, is_above)) continue;
       for (std::size_t i = 0; i < lower.size(); ++i) std::ranges::replace(nodes, lower[i], upper[i]);
     }
@@ -265,7 +263,7 @@ TEST(Consolidation, ALeakingInterfaceFollowsItsSeries) {
     const WholeRun done = run(layers.column.input);
     Eigen::Matrix<double, 2, 4> found;
     for (int i = 0; i < 2; ++i) {
-      const Snapshot& at = done.increments[static_cast<std::size_t>(1 + i)];
+      const Snapshot& at = done.increments[1 + i];
       found.row(i) << pressure(done, at, layers.above), pressure(done, at, layers.below),
           pressure(done, at, layers.base), -at.u[DofMap::displacement(done.index(layers.top), 1)];
     }
@@ -529,7 +527,7 @@ TEST(Consolidation, APressureFollowsItsHistory) {
     return p;
   };
   for (const int increment : {80, 200, 400, 600, 800}) {
-    const Snapshot& at = done.increments[static_cast<std::size_t>(increment - 1)];
+    const Snapshot& at = done.increments[increment - 1];
     const double t = 2.0 * at.load_factor;
     EXPECT_NEAR(pressure(done, at, column.mesh.node(0, column.top())), t < 1.0 ? 1.0 + t : 2.0, 1e-12);
     EXPECT_NEAR(pressure(done, at, column.mesh.node(0, 0)), exact(t), 2e-3) << t;
@@ -675,7 +673,7 @@ TEST(Consolidation, StagesHandOverWithoutAJump) {
         const WholeRun without = bench().run(std::move(without_model));
         ASSERT_TRUE(without.completed()) << without.failure;
         std::vector<Eigen::VectorXd> ends(4);
-        for (const Snapshot& at : with.increments) ends[static_cast<std::size_t>(at.stage)] = at.u;
+        for (const Snapshot& at : with.increments) ends[at.stage] = at.u;
         ends[3] = without.last().u;
         ASSERT_GT(ends[2].norm(), 1e-3);
         EXPECT_LT((ends[1] - ends[0]).norm(), 1e-9 * ends[2].norm());
@@ -764,7 +762,7 @@ const std::vector<LawOfSoil>& laws_of_soil() {
 }
 
 long yielding_points(const WholeRun& run) {
-  return run.last().points[static_cast<std::size_t>(PointStatus::yielded)];
+  return run.last().points[PointStatus::yielded];
 }
 
 // A load that grows so slowly that no pressure is left is the drained load of quad8, of any law; one in no time is the

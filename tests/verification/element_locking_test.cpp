@@ -35,9 +35,7 @@ Eigen::VectorXd pressure_load(const Cylinder& cylinder, const Element& element) 
   Eigen::VectorXd load = Eigen::VectorXd::Zero(cylinder.mesh.dofs());
   for (const auto& nodes : cylinder.mesh.elements)
     for (std::size_t e = 0; e < element.edges().size(); ++e) {
-      const auto inside = [&](int local) {
-        return cylinder.st(0, nodes[static_cast<std::size_t>(local)]) < 1e-9;
-      };
+      const auto inside = [&](int local) { return cylinder.st(0, nodes[local]) < 1e-9; };
       if (!std::all_of(element.edges()[e].begin(), element.edges()[e].end(), inside)) continue;
       std::vector<double> f(2 * nodes.size(), 0.0);
       element.edge_load(element_nodes(cylinder.mesh.x, nodes), static_cast<int>(e), {1.0, 1.0}, {0.0, 0.0}, f);

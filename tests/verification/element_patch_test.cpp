@@ -27,7 +27,7 @@ std::vector<char> prescribed_dofs(const PatchMesh& mesh, const ElementCase& c, c
   std::vector<char> fixed;
   for (Eigen::Index i = 0; i < mesh.x.cols(); ++i) {
     const bool slides = c.axisymmetric() && mesh.x(0, i) == 0.0 && mesh.x(1, i) > bottom && mesh.x(1, i) < top;
-    const char on = boundary[static_cast<std::size_t>(i)];
+    const char on = boundary[i];
     fixed.push_back(on);
     fixed.push_back(slides ? char{0} : on);
   }

@@ -35,7 +35,7 @@ class ErrorComparison final : public Observer {
     for (const GroupData& data : solution.assembly->groups()) {
       const Element& element = *data.group->element;
       const ElementTraits& t = element.traits();
-      geometry.resize(static_cast<std::size_t>(t.geometry_size()));
+      geometry.resize(t.geometry_size());
       for (int e = 0; e < data.group->elements(); ++e) {
         element_coordinates(model.mesh, *data.group, e, x);
         element.geometry(x, geometry);
@@ -43,7 +43,7 @@ class ErrorComparison final : public Observer {
           const Eigen::Map<const Vector4> own(data.state.committed.sigma.data() +
                                               4 * (static_cast<std::size_t>(e * t.points + p)));
           const Vector4 difference = own - lame_stress(body_, nu_, element.position(x, p));
-          error += geometry[static_cast<std::size_t>(p * (1 + 4 * t.dofs))] * difference.dot(C * difference);
+          error += geometry[p * (1 + 4 * t.dofs)] * difference.dot(C * difference);
         }
       }
     }

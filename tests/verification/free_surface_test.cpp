@@ -169,7 +169,7 @@ struct Streamed {
   StreamFunction psi;
   int index(int number) const {
     for (int node = 0; node < model.mesh.nodes(); ++node)
-      if (model.mesh.number[static_cast<std::size_t>(node)] == number) return node;
+      if (model.mesh.number[node] == number) return node;
     throw std::logic_error("no such node");
   }
   double at(int number) const { return psi.value(index(number)); }

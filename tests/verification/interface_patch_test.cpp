@@ -252,11 +252,11 @@ SandwichErrors load_sandwich(const ElementCase& solid, const ElementCase& interf
   for (Eigen::Index i = 0; i < n; ++i) {
     if (flat(1, i) != -1.0) continue;
     given.col(i) = R * Vector2(eps_ss * flat(0, i), 0.0);
-    fixed[static_cast<std::size_t>(2 * i)] = fixed[static_cast<std::size_t>(2 * i + 1)] = 1;
+    fixed[2 * i] = fixed[2 * i + 1] = 1;
   }
   if (solid.axisymmetric())
     for (Eigen::Index i = 0; i < n; ++i)
-      if (flat(0, i) == 0.0) fixed[static_cast<std::size_t>(2 * i)] = 1;
+      if (flat(0, i) == 0.0) fixed[2 * i] = 1;
 
   Eigen::VectorXd load = Eigen::VectorXd::Zero(2 * n);
   const auto add = [&](const std::vector<int>& nodes, int edge, double pressure, double shear) {

@@ -89,7 +89,7 @@ TEST_P(Invariance, NodeNumbers) {
   std::vector<int> numbers(7 * 13 + 7);
   std::iota(numbers.begin(), numbers.end(), 1);
   std::shuffle(numbers.begin(), numbers.end(), std::mt19937(20));
-  variant.number = [numbers](int plain) { return numbers[static_cast<std::size_t>(plain - 1)]; };
+  variant.number = [numbers](int plain) { return numbers[plain - 1]; };
   compare(variant, 1e-10, "random node numbers");
 }
 

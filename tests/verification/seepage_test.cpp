@@ -76,7 +76,7 @@ struct Seepage {
   Discharges seen;
   int index(int number) const {
     for (int node = 0; node < model->mesh.nodes(); ++node)
-      if (model->mesh.number[static_cast<std::size_t>(node)] == number) return node;
+      if (model->mesh.number[node] == number) return node;
     throw std::logic_error("no such node");
   }
   double head(int number) const { return seen.u[map.of(index(number), 1)]; }
@@ -266,7 +266,7 @@ TEST_P(EveryShape, StretchedAnisotropicSoilIsIsotropic) {
     block.straight = true;
     Flow flow(block, 1, k);
     std::vector<int> inflow = block.top();
-    inflow.resize(static_cast<std::size_t>(block.order() * 2 + 1));
+    inflow.resize(block.order() * 2 + 1);
     flow.hold(inflow, 4.0);
     flow.hold(block.right(), 1.0);
     flow.deck.reports.push_back(discharge_card(block.right()));

@@ -93,8 +93,7 @@ TEST(Excavation, ShippedTwinsAgree) {
       double up = 0.0;
       for (int i = 0; i < lifts.model->mesh.nodes(); ++i)
         if (std::abs(lifts.model->mesh.x(1, i) + 10.0) < 1e-9)
-          up += lifts.reaction(lifts.increments[stage], lifts.model->mesh.number[static_cast<std::size_t>(i)])
-                    .y();
+          up += lifts.reaction(lifts.increments[stage], lifts.model->mesh.number[i]).y();
       const double left = name == "cut" ? 16.5 * 10.0 - 4.0 * dug : M_PI * (16.5 * 16.5 * 10.0 - 16.0 * dug);
       EXPECT_NEAR(up, 18.0 * left, 1e-9 * 18.0 * left) << "stage " << stage + 1;
     }

@@ -453,7 +453,7 @@ WholeRun run_wall(int geometry, bool joints) {
     for (int j = 0; j < right.up(); ++j)
       for (int i = 1; i < right.across(); ++i)
         deck.node(right.node(i, j), right.at(i, j).x(), right.at(i, j).y());
-    const auto of = [&](int i, int j) { return i == 0 ? edge[static_cast<std::size_t>(j)] : right.node(i, j); };
+    const auto of = [&](int i, int j) { return i == 0 ? edge[j] : right.node(i, j); };
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
         deck.element(right.element(i, j), 1, {of(i, j), of(i + 1, j), of(i + 1, j + 1), of(i, j + 1)});

@@ -86,7 +86,7 @@ class Body {
   Body(const Model& model, const std::vector<Fixity>& more) : model_(model) {
     std::vector<char> later(model.groups.size(), 0);
     for (const Stage& stage : model.stages)
-      for (const int g : stage.births) later[static_cast<std::size_t>(g)] = 1;
+      for (const int g : stage.births) later[g] = 1;
     const auto dofs = static_cast<std::size_t>(2 * model.mesh.nodes());
     std::vector<char> held(dofs, 0), used(dofs, 0);
     weight = Vec::Zero(static_cast<Eigen::Index>(dofs));
@@ -105,7 +105,7 @@ class Body {
           entries.emplace_back(p.dofs[i], p.dofs[j],
                                K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
     }
-    K_.resize(static_cast<Eigen::Index>(dofs), static_cast<Eigen::Index>(dofs));
+    K_.resize(dofs, static_cast<Eigen::Index>(dofs));
     K_.setFromTriplets(entries.begin(), entries.end());
     std::vector<Eigen::Triplet<double>> inside;
     for (const auto& e : entries)
@@ -138,24 +138,22 @@ class Body {
     d(3, 3) = f * (1 - 2 * nu) / 2;
     return d;
   }
-  double parameter(int material, std::size_t i) const {
-    return model_.materials[static_cast<std::size_t>(material)].parameters[i];
-  }
+  double parameter(int material, std::size_t i) const { return model_.materials[material].parameters[i]; }
   Vector4 strain(const Point& p, const Vec& u) const {
     Vec local(static_cast<Eigen::Index>(p.dofs.size()));
-    for (std::size_t i = 0; i < p.dofs.size(); ++i) local[static_cast<Eigen::Index>(i)] = u[p.dofs[i]];
+    for (std::size_t i = 0; i < p.dofs.size(); ++i) local[i] = u[p.dofs[i]];
     return p.Bt.transpose() * local;
   }
   void add_force(const Point& p, const Vector4& stress, Vec& f) const {
     const Vec local = p.w * p.Bt * stress;
-    for (std::size_t i = 0; i < p.dofs.size(); ++i) f[p.dofs[i]] += local[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < p.dofs.size(); ++i) f[p.dofs[i]] += local[i];
   }
 
   std::vector<Point> points;
   Vec weight;  // downwards
 
  private:
-  int place(Eigen::Index dof) const { return place_[static_cast<std::size_t>(dof)]; }
+  int place(Eigen::Index dof) const { return place_[dof]; }
   void add_group(const Group& group, std::vector<char>& used) {
     const ElementTraits& t = group.element->traits();
     std::vector<double> geometry(static_cast<std::size_t>(t.geometry_size()));
@@ -166,7 +164,7 @@ class Body {
       std::vector<int> dofs;
       for (std::size_t n = 0; n < group.node_count(); ++n)
         for (int c = 0; c < 2; ++c) dofs.push_back(2 * group.nodes_of(e)[n] + c);
-      for (const int d : dofs) used[static_cast<std::size_t>(d)] = 1;
+      for (const int d : dofs) used[d] = 1;
       for (int p = 0; p < t.points; ++p) {
         const double* at = geometry.data() + p * (1 + 4 * t.dofs);
         points.push_back({at[0], group.element->position(x, p).y(),
@@ -200,7 +198,7 @@ Outcome visco_plastic(Body& body, const std::vector<Strength>& strength, const V
   double dt = 1e15;
   for (const Point& p : body.points) {
     const double E = body.parameter(p.material, 0), nu = body.parameter(p.material, 1);
-    const Strength& s = strength[static_cast<std::size_t>(p.material)];
+    const Strength& s = strength[p.material];
     const double sn = std::sin(s.phi);
     dt = std::min(
         dt, s.von_mises ? 4 * (1 + nu) / (3 * E) : 4 * (1 + nu) * (1 - 2 * nu) / (E * (1 - 2 * nu + sn * sn)));

@@ -1052,7 +1052,7 @@ class BishopsDam {
     const DofMap map(model);
     const int field = find_unknown(model.unknowns, "head");
     for (int node = 0; node < model.mesh.nodes(); ++node)
-      if (const int number = model.mesh.number[static_cast<std::size_t>(node)]; number <= 168)
+      if (const int number = model.mesh.number[node]; number <= 168)
         head_[static_cast<std::size_t>(number) - 1] = u[map.of(node, field)];
   }
 
@@ -1094,7 +1094,7 @@ class BishopsDam {
     const double t = y / 7.0, s = std::clamp((x - 14.0 * t) / (31.0 - 28.0 * t), 0.0, 1.0);
     const int i = std::min(static_cast<int>(20.0 * s), 19), j = std::min(static_cast<int>(7.0 * t), 6);
     const double a = 20.0 * s - i, b = 7.0 * t - j;
-    const auto at = [&](int column, int row) { return head_[static_cast<std::size_t>(column + 21 * row)]; };
+    const auto at = [&](int column, int row) { return head_[column + 21 * row]; };
     const double h = (1.0 - b) * ((1.0 - a) * at(i, j) + a * at(i + 1, j)) +
                      b * ((1.0 - a) * at(i, j + 1) + a * at(i + 1, j + 1));
     return std::max(0.0, kWater * (h - y));

@@ -163,7 +163,7 @@ void ChangingRegion::add_kept(const GroupData& data, Tangent& tangent) const {
     tangent.add_part(matrices, 0, 1);
   }
   for (int e = 0; e < elements; ++e)
-    if (data.moved[static_cast<std::size_t>(e)]) tangent.couple(data.dofs_of(e), data.matrix_of(e));
+    if (data.moved[e]) tangent.couple(data.dofs_of(e), data.matrix_of(e));
 }
 
 }  // namespace sage

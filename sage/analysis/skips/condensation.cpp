@@ -51,7 +51,7 @@ void Condensation::begin_step(double part, const StageSoFar& so_far, const Eigen
     held_work_ = eliminate_loads(loads_, step_);
   }
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
-    const int dof = matrix_.kept()[static_cast<std::size_t>(i)];
+    const int dof = matrix_.kept()[i];
     g_[i] = f0[dof] + part_since * stage_forces_[dof] - step_[matrix_.condensed() + i];
   }
   base_.setZero();
@@ -81,14 +81,12 @@ void Condensation::add_forces(const Eigen::VectorXd& du, Eigen::VectorXd& f) con
 
 void Condensation::find_kept_motion(const Eigen::VectorXd& du) const {
   const Eigen::VectorXd& since = predictor_.since();
-  for (Eigen::Index i = 0; i < base_.size(); ++i)
-    kept_du_[i] = du[matrix_.kept()[static_cast<std::size_t>(i)]] + since[i] - base_[i];
+  for (Eigen::Index i = 0; i < base_.size(); ++i) kept_du_[i] = du[matrix_.kept()[i]] + since[i] - base_[i];
 }
 
 void Condensation::add_border_forces(Eigen::VectorXd& f) const {
   kept_f_.noalias() = matrix_.S() * kept_du_;
-  for (Eigen::Index i = 0; i < g_.size(); ++i)
-    f[matrix_.kept()[static_cast<std::size_t>(i)]] += g_[i] + kept_f_[i];
+  for (Eigen::Index i = 0; i < g_.size(); ++i) f[matrix_.kept()[i]] += g_[i] + kept_f_[i];
 }
 
 // Interface dofs that move by u leave rounding of |K| |u|: the solution is the motion from a state near by.
@@ -124,7 +122,7 @@ double Condensation::rounding(const Eigen::VectorXd& du) const {
 
 void Condensation::add_motion(Eigen::VectorXd& du) const {
   const Eigen::VectorXd& since = predictor_.since();
-  for (Eigen::Index i = 0; i < since.size(); ++i) du[matrix_.kept()[static_cast<std::size_t>(i)]] += since[i];
+  for (Eigen::Index i = 0; i < since.size(); ++i) du[matrix_.kept()[i]] += since[i];
 }
 
 // Of the condensed ones from the border: the stage's loads L there move by part K_ll^-1 L - K_ll^-1 K_ln du_n.
@@ -132,7 +130,7 @@ double Condensation::load_work(const Eigen::VectorXd& loads, const Eigen::Vector
   if (!predictor_.on_line() || predictor_.supports_move()) return loads.dot(du);
   double work = predictor_.part() * stage_work_;
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
-    const int dof = matrix_.kept()[static_cast<std::size_t>(i)];
+    const int dof = matrix_.kept()[i];
     work += (loads[dof] + stage_[matrix_.condensed() + i]) * du[dof];
   }
   return work;
@@ -158,7 +156,7 @@ void Condensation::refine(const Eigen::VectorXd& f, Eigen::VectorXd& du) {
 void Condensation::set_base(const Eigen::VectorXd& all, const Eigen::VectorXd& others,
                             const Eigen::VectorXd& du) {
   for (Eigen::Index i = 0; i < g_.size(); ++i) {
-    const int dof = matrix_.kept()[static_cast<std::size_t>(i)];
+    const int dof = matrix_.kept()[i];
     g_[i] = all[dof] - others[dof];
     base_[i] = du[dof] + predictor_.since()[i];
   }
@@ -183,7 +181,7 @@ std::vector<char> changing_dofs(const std::vector<GroupData>& groups, int dofs) 
     if (!data.active || data.constant) continue;
     for (int e = 0; e < data.group->elements(); ++e) {
       const ElementDofs own = data.dofs_of(e);
-      for (std::size_t i = 0; i < own.size(); ++i) flags[static_cast<std::size_t>(own[i])] = 1;
+      for (std::size_t i = 0; i < own.size(); ++i) flags[own[i]] = 1;
     }
   }
   return flags;
@@ -204,8 +202,8 @@ std::unique_ptr<Condensation> condense_if_it_pays(const std::vector<GroupData>& 
   // Of an ill-conditioned region, and of terms that grow: elimination without refinement would cost digits.
   constexpr double kPoorPivot = 1e-6, kLargeGrowth = 1e3;
   const std::vector<char> keep = changing_dofs(groups, dofs);
-  const auto kept = static_cast<int>(std::count_if(
-      free_dofs.begin(), free_dofs.end(), [&](int dof) { return keep[static_cast<std::size_t>(dof)] != 0; }));
+  const auto kept = static_cast<int>(
+      std::count_if(free_dofs.begin(), free_dofs.end(), [&](int dof) { return keep[dof] != 0; }));
   const int condensed = static_cast<int>(free_dofs.size()) - kept;
   if (kept == 0 || condensed < kFewestCondensed || too_wide(kept, condensed)) return nullptr;
   try {

@@ -48,7 +48,7 @@ void ConstantRegion::make_matrices(GroupData& data, const std::vector<int>& shap
   int made = 0;
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);
-    if (data.matrix[static_cast<std::size_t>(e)] != made) continue;
+    if (data.matrix[e] != made) continue;
     element_->evaluate(data, e, nullptr, data.K.data() + static_cast<std::size_t>(made) * data.matrix_size());
     ++made;
   }
@@ -137,7 +137,7 @@ void ConstantRegion::add_group(GroupData& data, const Eigen::VectorXd& du, Eigen
   const bool divided = pool_ != nullptr && elements >= kWorthLinearThreads;
   if (divided)
     pool_->run((elements + kLinearUnit - 1) / kLinearUnit, [&](int unit, int thread) {
-      double* const u = room_[static_cast<std::size_t>(thread)].data();
+      double* const u = room_[thread].data();
       for (int e = unit * kLinearUnit; e < std::min((unit + 1) * kLinearUnit, elements); ++e)
         make_force(data, e, du, u);
     });
@@ -169,7 +169,7 @@ void ConstantRegion::set_threads(int threads) {
   if (pool_ == nullptr) return;
   std::size_t most = 0;
   for (const GroupData& data : *groups_) most = std::max(most, data.dofs());
-  room_.resize(static_cast<std::size_t>(threads), std::vector<double>(most));
+  room_.resize(threads, std::vector<double>(most));
 }
 
 void ConstantRegion::add_committed_forces(Eigen::VectorXd& to) const {

@@ -25,7 +25,7 @@ void prepare_four_abreast(const Mesh& mesh, GroupData& data) {
   const auto size = static_cast<std::size_t>(data.four_elements->four_geometry_size());
   const int fours = (group.elements() + kAbreast - 1) / kAbreast;
   data.geometry_four_abreast.resize(size * static_cast<std::size_t>(fours * kAbreast));
-  data.constant_four_abreast.assign(static_cast<std::size_t>(fours), 0);
+  data.constant_four_abreast.assign(fours, 0);
   std::vector<double> geometry(static_cast<std::size_t>(group.element->traits().geometry_size()));
   Eigen::Matrix2Xd x;
   for (int e = 0; e < fours * kAbreast; ++e) {
@@ -76,7 +76,7 @@ Outcome PassFourAbreast::evaluate(int first, double* f, double* K, bool& changed
     const auto at = [&](std::size_t l) { return du_->data() + DofMap::displacement(nodes[l][i / 2]); };
     load_pairs_of_four(at(0), at(1), at(2), at(3), du[i], du[i + 1]);
   }
-  char& constant = data_->constant_four_abreast[static_cast<std::size_t>(first / kAbreast)];
+  char& constant = data_->constant_four_abreast[first / kAbreast];
   const bool kept = K != nullptr && data_->keeps_matrices();
   out.changed = changed;
   out.constant = kept && constant != 0;

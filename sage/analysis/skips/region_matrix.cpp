@@ -17,7 +17,7 @@ bool symmetric(const LawRef& law) {
 RegionMatrix::RegionMatrix(const std::vector<GroupData>& groups, const std::vector<int>& dofs,
                            const std::vector<char>& keep, const SolverMaker& make)
     : groups_(&groups), dofs_(static_cast<int>(keep.size())) {
-  for (int dof : dofs) (keep[static_cast<std::size_t>(dof)] ? kept_ : condensed_).push_back(dof);
+  for (int dof : dofs) (keep[dof] ? kept_ : condensed_).push_back(dof);
   bool all_symmetric = true;
   for (const GroupData& data : groups)
     if (data.active && data.constant) all_symmetric = all_symmetric && symmetric(data.law);
@@ -36,7 +36,7 @@ bool RegionMatrix::analyse_if_it_pays(int increments, bool symmetric) {
 void RegionMatrix::analyse() {
   const int equations = condensed() + (border_solver_ != nullptr ? static_cast<int>(kept_.size()) : 0);
   std::vector<int> equation(static_cast<std::size_t>(dofs_), -1);
-  for (int i = 0; i < equations; ++i) equation[static_cast<std::size_t>(dof_of(i))] = i;
+  for (int i = 0; i < equations; ++i) equation[dof_of(i)] = i;
   ElementEquations elements;
   for (const GroupData& data : *groups_)
     if (data.active && data.constant) append_equations(data, equation, elements);
@@ -90,13 +90,13 @@ void RegionMatrix::factorise() {
 
 void RegionMatrix::list_inner_nodes() {
   std::vector<char> kept(static_cast<std::size_t>(dofs_), 0);
-  for (const int dof : kept_) kept[static_cast<std::size_t>(dof)] = 1;
+  for (const int dof : kept_) kept[dof] = 1;
   inner_nodes_.assign(static_cast<std::size_t>(dofs_) / 2, 0);
   for (const GroupData& data : *groups_) {
     if (!data.active || !data.constant) continue;
     for (const int node : data.group->nodes) {
       const auto first = static_cast<std::size_t>(DofMap::displacement(node));
-      if (!kept[first] || !kept[first + 1]) inner_nodes_[static_cast<std::size_t>(node)] = 1;
+      if (!kept[first] || !kept[first + 1]) inner_nodes_[node] = 1;
     }
   }
 }
@@ -118,7 +118,7 @@ void RegionMatrix::solve_for_border() {
     border(whole)[j] = 1.0;
     recover(whole);
     find_forces(whole, 0, whole.size());
-    for (Eigen::Index i = 0; i < n; ++i) S_(i, j) = all_forces_[kept_[static_cast<std::size_t>(i)]];
+    for (Eigen::Index i = 0; i < n; ++i) S_(i, j) = all_forces_[kept_[i]];
   }
 }
 

@@ -37,10 +37,7 @@ class RegionMatrix {
 
   auto inner(Eigen::VectorXd& x) const { return x.head(condensed()); }
   auto border(Eigen::VectorXd& x) const { return x.tail(static_cast<Eigen::Index>(kept_.size())); }
-  int dof_of(Eigen::Index i) const {
-    return i < condensed() ? condensed_[static_cast<std::size_t>(i)]
-                           : kept_[static_cast<std::size_t>(i - condensed())];
-  }
+  int dof_of(Eigen::Index i) const { return i < condensed() ? condensed_[i] : kept_[i - condensed()]; }
 
   // As BorderSolver::eliminate and recover.
   void eliminate(Eigen::VectorXd& x);

@@ -61,7 +61,7 @@ double RegionPredictor::least_force_squares() const {
 
 void RegionPredictor::accept_border(const std::vector<int>& kept, const Eigen::VectorXd& du) {
   before_ = now_;
-  for (Eigen::Index i = 0; i < now_.since.size(); ++i) now_.since[i] += du[kept[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < now_.since.size(); ++i) now_.since[i] += du[kept[i]];
   now_.behind = true;
 }
 

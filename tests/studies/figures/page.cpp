@@ -24,7 +24,7 @@ const char* name_of(Quantity quantity) {
                                     "normal",
                                     "shear",
                                     "stress level of the interface"};
-  return kNames[static_cast<std::size_t>(quantity)];
+  return kNames[quantity];
 }
 
 const char* name_of(Place place) {
@@ -324,15 +324,15 @@ std::string parameters_of(const Scene& scene) {
 }
 
 const Caption& caption_of(int figure) {
-  return captions()[static_cast<std::size_t>(figure - 1)];
+  return captions()[figure - 1];
 }
 
 std::string tally(const std::vector<Result>& results, int figure) {
   std::array<int, 5> count{}, near{};
   for (const Result& result : results) {
     if (figure != 0 && result.check->figure != figure) continue;
-    ++count[static_cast<std::size_t>(result.verdict)];
-    near[static_cast<std::size_t>(result.verdict)] += result.near_limit ? 1 : 0;
+    ++count[result.verdict];
+    near[result.verdict] += result.near_limit ? 1 : 0;
   }
   std::string text;
   for (std::size_t v = 0; v < count.size(); ++v) {

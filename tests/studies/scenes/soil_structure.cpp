@@ -39,8 +39,8 @@ template <class Use>
 void each_pair(const WholeRun& run, int group_number, const Use& use) {
   const int g = group_at(run, group_number);
   if (g < 0) return;
-  const Group& group = run.model->groups[static_cast<std::size_t>(g)];
-  const PointStresses& stress = run.stress[static_cast<std::size_t>(g)];
+  const Group& group = run.model->groups[g];
+  const PointStresses& stress = run.stress[g];
   const bool middle = group.node_count() == 6;
   const int pairs = middle ? 3 : 2;
   for (int e = 0; e < group.elements(); ++e) {
@@ -225,7 +225,7 @@ DeckWriter WallInGround::deck(int last_stage) const {
     }
     if (stage >= 2 && stage - 2 < lifts) {
       cards.deaths.insert(cards.deaths.end(), {stage, kInside + stage - 1});
-      cards.title += fmt::format("dug to {} m", levels[static_cast<std::size_t>(stage - 2)]);
+      cards.title += fmt::format("dug to {} m", levels[stage - 2]);
     }
     if (cards.title.size() > 2 && cards.title.substr(cards.title.size() - 2) == ", ")
       cards.title.resize(cards.title.size() - 2);
@@ -235,7 +235,7 @@ DeckWriter WallInGround::deck(int last_stage) const {
 
 WallForces wall_forces(const WallInGround& scene, const WholeRun& run) {
   WallForces f;
-  f.outer_pressure.assign(static_cast<std::size_t>(scene.toe + 1), 0.0);
+  f.outer_pressure.assign(scene.toe + 1, 0.0);
   const auto lifts = static_cast<int>(scene.levels.size());
   const std::size_t stage = run.model->stages.size();
   for (int k = 0; k <= lifts; ++k) {
@@ -255,15 +255,14 @@ WallForces wall_forces(const WallInGround& scene, const WholeRun& run) {
   for (const WallInGround::Strut& strut : scene.struts) {
     const bool there = stage >= static_cast<std::size_t>(strut.born) &&
                        (strut.dies == 0 || stage < static_cast<std::size_t>(strut.dies));
-    const double N =
-        there ? run.stress[static_cast<std::size_t>(group_at(run, group))](0, 0) : 0.0;  // tension positive
+    const double N = there ? run.stress[group_at(run, group)](0, 0) : 0.0;  // tension positive
     const double on_wall = strut.anchor ? N : scene.geometry == 2 ? -N / scene.half_width : -N;
     f.each.push_back(-N);
     f.struts += on_wall;
     f.struts_moment += strut.level * on_wall;
     ++group;
   }
-  const PointStresses& wall = run.stress[static_cast<std::size_t>(group_at(run, WallInGround::kWall))];
+  const PointStresses& wall = run.stress[group_at(run, WallInGround::kWall)];
   for (Eigen::Index p = 0; p < wall.cols(); ++p) {
     f.largest_moment = std::max(f.largest_moment, std::abs(wall(kMoment, p)));
     if (scene.geometry != 2) continue;
@@ -486,7 +485,7 @@ DeckWriter RaftOnGround::deck() const {
     const double grow = layers == 1 ? 0.05 : 1.0;
     deck.fill(first, columns, 1, n, s, 0.1, grow);
     deck.fill(first + columns, outside, 1, n, s, 20.0, grow);
-    deck.material(1 + k, kElastic, {moduli[static_cast<std::size_t>(layers - 1 - k)], nu}, 0.0,
+    deck.material(1 + k, kElastic, {moduli[layers - 1 - k], nu}, 0.0,
                   fmt::format("layer {} from below", k + 1));
     deck.group(1 + k, kQuad8, 1, 1 + k, fmt::format("layer {} from below", k + 1));
     deck.elements_block(1 + rows * k / layers * (s - 1), 1 + k, {first, first + 1, first + 1 + s, first + s},

@@ -50,7 +50,7 @@ void BeamRow::stand_on(double along, double across, int formulation) {
   const std::vector<std::string> beam(deck.nodes.begin(), deck.nodes.begin() + last());
   for (int i = 1; i <= last(); ++i) {
     const int copy = last() + i;
-    deck.nodes.push_back(fmt::format("{:5}", copy) + beam[static_cast<std::size_t>(i - 1)].substr(5));
+    deck.nodes.push_back(fmt::format("{:5}", copy) + beam[i - 1].substr(5));
     deck.fix(copy, 1, 1);
     held.push_back(copy);
   }

@@ -51,7 +51,7 @@ bool WholeRun::warns(const std::string& words) const {
 
 int WholeRun::index(int number) const {
   for (int i = 0; i < model->mesh.nodes(); ++i)
-    if (model->mesh.number[static_cast<std::size_t>(i)] == number) return i;
+    if (model->mesh.number[i] == number) return i;
   throw std::out_of_range("node " + std::to_string(number));
 }
 

@@ -55,7 +55,7 @@ void not_a_number(Sweep& s) {
   for (const Place& place : places)
     for (const char* word : {"NaN", "Inf", "-Infinity", "1.E308", "1.E400", "1.E101", "1.O", "--1", "1.2.3"}) {
       std::vector<std::string> changed = deck;
-      std::string& card = changed[static_cast<std::size_t>(place.line)];
+      std::string& card = changed[place.line];
       card.resize(std::max<std::size_t>(card.size(), static_cast<std::size_t>(place.column) + 10), ' ');
       card.replace(static_cast<std::size_t>(place.column), 10, fmt::format("{:>10}", word));
       const Ran ran = s.run(joined(changed));

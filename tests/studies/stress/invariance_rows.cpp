@@ -84,7 +84,7 @@ void numbering(Sweep& s) {
       std::vector<int> numbers(5 * 9 + 5);
       std::iota(numbers.begin(), numbers.end(), 1);
       std::shuffle(numbers.begin(), numbers.end(), std::mt19937(seed));
-      variant.number = [numbers](int n) { return numbers[static_cast<std::size_t>(n - 1)]; };
+      variant.number = [numbers](int n) { return numbers[n - 1]; };
       against_plain(s, fmt::format("random numbers {}", seed), kUnknown, law, variant, 1e-10);
     }
 }

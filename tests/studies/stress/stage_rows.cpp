@@ -64,7 +64,7 @@ void everything_dug(Sweep& s) {
     // sigma_h = nu/(1-nu) sigma_v.
     double stress = kUnknown, settled = kUnknown, stale = kUnknown;
     if (ran.completed()) {
-      const auto& top = ran.run->stress[static_cast<std::size_t>(groups - 1)];
+      const auto& top = ran.run->stress[groups - 1];
       const auto& layer = ran.run->stress[0];
       stress = std::abs(layer.row(1).mean() + 3.0 * kWeight) / (3.0 * kWeight);
       stale = std::abs(top.row(1).mean() + 1.0 * kWeight) / kWeight +

@@ -314,7 +314,7 @@ void wall_variants(Sweep& s) {
       std::iota(numbers.begin(), numbers.end(), 1);
       std::shuffle(numbers.begin(), numbers.end(), std::mt19937(seed));
       WallDeck shuffled = deck;
-      shuffled.number = [numbers](int n) { return numbers[static_cast<std::size_t>(n - 1)]; };
+      shuffled.number = [numbers](int n) { return numbers[n - 1]; };
       against_plain_wall(s, fmt::format("random numbers {}", seed), kUnknown, shuffled, kAllowed);
     }
     for (const int power : {-9, -6, -3, 3, 6, 9}) {

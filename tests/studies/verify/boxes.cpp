@@ -208,7 +208,7 @@ void point_force(Record& record) {
       Model model = record.bench().build(deck.text());
       std::vector<char> far(static_cast<std::size_t>(model.mesh.nodes()), 0);
       for (int node = 0; node < model.mesh.nodes(); ++node)
-        far[static_cast<std::size_t>(node)] = model.mesh.x(0, node) == 4.0 || model.mesh.x(1, node) == -4.0;
+        far[node] = model.mesh.x(0, node) == 4.0 || model.mesh.x(1, node) == -4.0;
       hold(model, far, [&](const Vector2& x) { return exact.displacement(x); });
       const WholeRun run = record.run(std::move(model));
       double wrong = 0.0, all = 0.0;

@@ -89,7 +89,7 @@ std::vector<char> boundary_nodes(const Model& model) {
   std::vector<char> flags(static_cast<std::size_t>(model.mesh.nodes()), 0);
   each_edge([&](const auto& ends, const int* nodes, const std::vector<int>& edge) {
     if (uses[ends] == 1)
-      for (int local : edge) flags[static_cast<std::size_t>(nodes[local])] = 1;
+      for (int local : edge) flags[nodes[local]] = 1;
   });
   return flags;
 }
@@ -104,7 +104,7 @@ void hold(Model& model, int node, bool x, bool y, const Vector2& u) {
 
 void hold(Model& model, const std::vector<char>& nodes, const VectorField& u) {
   for (int i = 0; i < model.mesh.nodes(); ++i)
-    if (nodes[static_cast<std::size_t>(i)]) hold(model, i, true, true, u(model.mesh.x.col(i)));
+    if (nodes[i]) hold(model, i, true, true, u(model.mesh.x.col(i)));
 }
 
 void add_body_force(Model& model, const VectorField& b) {
@@ -160,7 +160,7 @@ FieldErrors field_errors(const WholeRun& run, const VectorField& u, const Tensor
       element_coordinates(model.mesh, group, e, x);
       group.element->geometry(x, geometry);
       for (int p = 0; p < traits.points; ++p) {
-        const double w = geometry[static_cast<std::size_t>(p * (1 + 4 * traits.dofs))];
+        const double w = geometry[p * (1 + 4 * traits.dofs)];
         const Vector4 exact = sigma(group.element->position(x, p));
         ds += w * (run.stress[g].col(e * traits.points + p) - exact).squaredNorm();
         size_s += w * exact.squaredNorm();

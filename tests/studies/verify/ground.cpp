@@ -90,7 +90,7 @@ WholeRun dig(const Record& record, int geometry, const std::vector<int>& portion
       const int n = all.node(i, j);
       DeckWriter card(1);
       card.element(all.element(i, j), 2 + layer, {n, n + 1, n + 1 + all.across(), n + all.across()});
-      ground.deck.elements[static_cast<std::size_t>(all.element(i, j) - 1)] = card.elements.front();
+      ground.deck.elements[all.element(i, j) - 1] = card.elements.front();
     }
   if (initial_stress)
     for (int g = 1; g <= 1 + deep; ++g) ground.deck.initial(g, 1, 0.0, kWeight, 0.7, 0.0);
@@ -153,7 +153,7 @@ void lifts(Record& record) {
       record.near(where_of(geometry), fmt::format("settlement of the top of lift {}", lift + 1),
                   -run.u(block.node(0, lift + 1)).y(), settlement[lift], 1e-10);
       record.near(where_of(geometry), fmt::format("mean vertical stress in lift {} (tension +)", lift + 1),
-                  run.stress[static_cast<std::size_t>(lift)].row(1).mean(), -kWeight * (2.5 - lift), 1e-9);
+                  run.stress[lift].row(1).mean(), -kWeight * (2.5 - lift), 1e-9);
     }
   }
 }

@@ -52,7 +52,7 @@ void hold_boundary(Model& model, const VectorField& u) {
   const double bottom = model.mesh.x.row(1).minCoeff(), top = model.mesh.x.row(1).maxCoeff();
   const std::vector<char> boundary = boundary_nodes(model);
   for (int i = 0; i < model.mesh.nodes(); ++i) {
-    if (!boundary[static_cast<std::size_t>(i)]) continue;
+    if (!boundary[i]) continue;
     const Vector2 x = model.mesh.x.col(i);
     const bool slides =
         model.geometry == Geometry::axisymmetric && x.x() == 0.0 && x.y() > bottom && x.y() < top;

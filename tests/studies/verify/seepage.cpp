@@ -140,7 +140,7 @@ void anisotropy(Record& record) {
       };
       DeckWriter deck = flow_deck(block, 1, kDarcyLaw, k);
       std::vector<int> inflow = block.top();
-      inflow.resize(static_cast<std::size_t>(block.order() * 2 + 1));
+      inflow.resize(block.order() * 2 + 1);
       hold_heads(deck.stages.back(), inflow, 4.0);
       hold_heads(deck.stages.back(), block.right(), 1.0);
       nodes = block.right();

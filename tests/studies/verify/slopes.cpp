@@ -153,9 +153,8 @@ double vertical_cut_load(const Record& record, int n, bool& completed) {
   block.write_elements(all, 1);
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i)
-      if (i >= cut || j < below)
-        deck.elements.push_back(all.elements[static_cast<std::size_t>(j * columns + i)]);
-  for (int j = 0; j <= 2 * below; ++j) deck.fix(block.left()[static_cast<std::size_t>(j)], 1, 0);
+      if (i >= cut || j < below) deck.elements.push_back(all.elements[j * columns + i]);
+  for (int j = 0; j <= 2 * below; ++j) deck.fix(block.left()[j], 1, 0);
   for (int node : block.right()) deck.fix(node, 1, 0);
   for (int node : block.bottom()) deck.fix(node, 1, 1);
   deck.stage(11).gravity_y = -1.0;

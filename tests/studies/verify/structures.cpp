@@ -107,7 +107,7 @@ void hetenyi(Record& record) {
         const auto [run, ends] = run_with_ends(record, row.deck);
         middle.add(10.0 / n, -run.u(row.node(n / 2)).y(), exact[0]);
         end.add(10.0 / n, -run.u(1).y(), exact[1]);
-        moment.add(10.0 / n, ends[static_cast<std::size_t>(n)].M, exact[2]);
+        moment.add(10.0 / n, ends[n].M, exact[2]);
       }
       middle.rows(record, Where::plane_strain);
       end.rows(record, Where::plane_strain);
@@ -273,8 +273,8 @@ double composite_deflection(const Record& record, double ks, int n) {
   for (int r : {0, 3})
     for (int i = 0; i <= last; ++i)
       for (int node = 0; node < model.mesh.nodes(); ++node)
-        if (model.mesh.number[static_cast<std::size_t>(node)] == row * r + i + 1)
-          model.stages[0].loads.push_back({node, {0.0, -0.5 * force[static_cast<std::size_t>(i)]}, 0});
+        if (model.mesh.number[node] == row * r + i + 1)
+          model.stages[0].loads.push_back({node, {0.0, -0.5 * force[i]}, 0});
   const WholeRun run = record.run(std::move(model));
   return -run.u(n + 1).y();
 }

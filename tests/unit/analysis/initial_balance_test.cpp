@@ -88,7 +88,7 @@ TEST(InitialBalance, NewtonCotesPairsAreOutOfBalanceAtBothEnds) {
     EXPECT_NEAR(std::abs(found.force), kPi * h * h * JointedSpecimen::kCell / 3.0, 1e-9);
     // At the side each ring of length h carries 2 pi R h p.
     EXPECT_NEAR(found.largest, 2.0 * kPi * JointedSpecimen::kRadius * h * JointedSpecimen::kCell, 1e-9);
-    const int node = model.mesh.number[static_cast<std::size_t>(found.dof / 2)];
+    const int node = model.mesh.number[found.dof / 2];
     EXPECT_TRUE(node == 421 || node == 435) << node;
     EXPECT_EQ(found.dof % 2, 1);
   }

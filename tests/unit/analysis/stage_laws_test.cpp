@@ -97,7 +97,7 @@ TEST(StageLaws, LockOffStandsAndThenTheBarIsElastic) {
     ASSERT_TRUE(run.completed()) << run.failure;
     ASSERT_EQ(run.increments.size(), 5u);
     const auto uy = [&](int increment) {
-      return run.increments[static_cast<std::size_t>(increment)].u[DofMap::displacement(run.index(2), 1)];
+      return run.increments[increment].u[DofMap::displacement(run.index(2), 1)];
     };
     EXPECT_NEAR(uy(0), -0.1, 1e-12);
     EXPECT_NEAR(uy(1), 0.0, 1e-12);  // half of the stage

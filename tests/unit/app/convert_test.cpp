@@ -374,8 +374,7 @@ double area_of(const Model& model, const Group& group) {
   for (int e = 0; e < group.elements(); ++e) {
     element_coordinates(model.mesh, group, e, x);
     group.element->geometry(x, geometry);
-    for (int p = 0; p < traits.points; ++p)
-      area += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+    for (int p = 0; p < traits.points; ++p) area += geometry[p * (1 + traits.law_size * traits.dofs)];
   }
   return area;
 }

@@ -158,7 +158,7 @@ TEST(OutsideUnknown, LoadsAreFluxes) {
   ASSERT_EQ(app::run_deck(request, with_diffusion()).exit_code, app::kOk);
   const std::vector<double> c = last(request, "concentration"), load = last(request, "concentration_flux");
   for (int i = 0; i <= Column::elements; ++i)
-    EXPECT_NEAR(c[static_cast<std::size_t>(Column::row(i) - 1)], 6.0 / 2.0 * i, 1e-10) << "q y / k";
+    EXPECT_NEAR(c[Column::row(i) - 1], 6.0 / 2.0 * i, 1e-10) << "q y / k";
   EXPECT_EQ(load[10], 3.0);
   EXPECT_EQ(load[0], 0.0);
 }
@@ -187,8 +187,7 @@ TEST(OutsideUnknown, FieldsConvergeEachByItsOwnSize) {
   const app::RunOutcome outcome = app::run_deck(request, with_diffusion());
   ASSERT_EQ(outcome.exit_code, app::kOk);
   const std::vector<double> c = last(request, "concentration");
-  for (int i = 0; i <= Column::elements; ++i)
-    EXPECT_NEAR(c[static_cast<std::size_t>(Column::row(i) - 1)], kirchhoff(0.8, i / 5.0), 1e-9);
+  for (int i = 0; i <= Column::elements; ++i) EXPECT_NEAR(c[Column::row(i) - 1], kirchhoff(0.8, i / 5.0), 1e-9);
 }
 
 TEST(OutsideUnknown, WhatComesInGoesOutWhereTheFieldSaysSo) {

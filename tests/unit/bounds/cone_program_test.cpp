@@ -96,7 +96,7 @@ TEST(SparseFactor, SolvesWhatADenseFactorSolves) {
     parts.push_back(part);
   }
   SparseFactor factor(kEquations, couplings);
-  const auto part = [&](int i) -> const Eigen::MatrixXd& { return parts[static_cast<std::size_t>(i)]; };
+  const auto part = [&](int i) -> const Eigen::MatrixXd& { return parts[i]; };
   factor.factorise(part, 1e-13);
   EXPECT_EQ(factor.dropped(), 0);
   const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(kEquations, -1.0, 2.0);

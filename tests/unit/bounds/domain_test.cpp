@@ -22,8 +22,7 @@ double area_of(const Domain& d) {
 void expect_no_hanging_node(const Domain& d, double side) {
   double rim = 0.0;
   for (const Edge& edge : edges_of(d).all)
-    if (edge.triangle[1] < 0)
-      rim += (d.x[static_cast<std::size_t>(edge.a)] - d.x[static_cast<std::size_t>(edge.b)]).norm();
+    if (edge.triangle[1] < 0) rim += (d.x[edge.a] - d.x[edge.b]).norm();
   EXPECT_NEAR(rim, 4.0 * side, 1e-12);
 }
 
@@ -36,7 +35,7 @@ TEST(Domain, RefinesWithoutHangingNodes) {
   for (int turn = 0; turn < 6; ++turn) {
     std::vector<char> marked(d.triangles.size(), 0);
     for (std::size_t t = 0; t < marked.size(); ++t)
-      for (const int n : d.triangles[t].node) marked[t] |= d.x[static_cast<std::size_t>(n)].norm() < 1e-12;
+      for (const int n : d.triangles[t].node) marked[t] |= d.x[n].norm() < 1e-12;
     refine(d, marked);
   }
   EXPECT_NEAR(area_of(d), 4.0, 1e-12);
@@ -54,7 +53,7 @@ TEST(Domain, DividesTheTractionsOfASide) {
   Domain d = block({0.0, 1.0}, {0.0, 1.0});
   along_level(d, 1.0, 0.0, 1.0, [&](Boundary& b) {
     for (std::size_t i = 0; i < 2; ++i) {
-      const double x = d.x[static_cast<std::size_t>(i == 0 ? b.a : b.b)].x();
+      const double x = d.x[i == 0 ? b.a : b.b].x();
       b.live[i] = Vector2(1.0 + x, 0.0);
     }
   });
@@ -63,7 +62,7 @@ TEST(Domain, DividesTheTractionsOfASide) {
   for (const Boundary& b : d.boundary)
     for (std::size_t i = 0; i < 2; ++i) {
       if (b.live[i].isZero(0.0)) continue;
-      EXPECT_NEAR(b.live[i].x(), 1.0 + d.x[static_cast<std::size_t>(i == 0 ? b.a : b.b)].x(), 1e-14);
+      EXPECT_NEAR(b.live[i].x(), 1.0 + d.x[i == 0 ? b.a : b.b].x(), 1e-14);
       ++found;
     }
   EXPECT_EQ(found, 8);
@@ -80,14 +79,12 @@ TEST(Domain, DividesBothSidesOfAJoint) {
     d.triangles.push_back(t);
   }
   d.joints.push_back({.first = {3, 2}, .second = {shift, shift + 1}, .strength = {}, .lower_cohesion = 0.0});
-  ASSERT_EQ(d.x[3], d.x[static_cast<std::size_t>(shift)]);
+  ASSERT_EQ(d.x[3], d.x[shift]);
   for (int turn = 0; turn < 3; ++turn) refine(d, std::vector<char>(d.triangles.size(), 1));
   double length = 0.0;
   for (const Joint& joint : d.joints) {
-    for (std::size_t i = 0; i < 2; ++i)
-      EXPECT_EQ(d.x[static_cast<std::size_t>(joint.first[i])], d.x[static_cast<std::size_t>(joint.second[i])]);
-    length +=
-        (d.x[static_cast<std::size_t>(joint.first[0])] - d.x[static_cast<std::size_t>(joint.first[1])]).norm();
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(d.x[joint.first[i]], d.x[joint.second[i]]);
+    length += (d.x[joint.first[0]] - d.x[joint.first[1]]).norm();
   }
   EXPECT_NEAR(length, 1.0, 1e-14);
   EXPECT_GT(d.joints.size(), 1u);

@@ -61,7 +61,7 @@ inline void along_level(Domain& d, double y, double from, double to,
                         const std::function<void(Boundary&)>& act) {
   for (const Edge& edge : edges_of(d).all) {
     if (edge.triangle[1] >= 0) continue;
-    const Vector2 &a = d.x[static_cast<std::size_t>(edge.a)], &b = d.x[static_cast<std::size_t>(edge.b)];
+    const Vector2 &a = d.x[edge.a], &b = d.x[edge.b];
     const double low = std::min(a.x(), b.x()), high = std::max(a.x(), b.x());
     if (std::abs(a.y() - y) + std::abs(b.y() - y) > 1e-9 || low < from - 1e-9 || high > to + 1e-9) continue;
     Boundary one{.a = edge.a, .b = edge.b};

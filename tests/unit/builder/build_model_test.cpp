@@ -39,7 +39,7 @@ const std::vector<std::string> kSquare{
 
 Vector2 at(const Model& model, int number) {
   for (int i = 0; i < model.mesh.nodes(); ++i)
-    if (model.mesh.number[static_cast<std::size_t>(i)] == number) return model.mesh.x.col(i);
+    if (model.mesh.number[i] == number) return model.mesh.x.col(i);
   return {std::nan(""), std::nan("")};
 }
 
@@ -121,10 +121,10 @@ TEST(Triangles, EdgesKeepTheNumbersOfTheCard) {
                      "                 10.       10.\n");
     const Model model = build(text);
     const EdgeLoad& load = model.stages.at(0).pressures.at(0);
-    const Group& group = model.groups[static_cast<std::size_t>(load.group)];
+    const Group& group = model.groups[load.group];
     std::string nodes;
-    for (int i : group.element->edges()[static_cast<std::size_t>(load.edge)])
-      nodes += std::to_string(model.mesh.number[static_cast<std::size_t>(group.nodes_of(load.element)[i])]);
+    for (int i : group.element->edges()[load.edge])
+      nodes += std::to_string(model.mesh.number[group.nodes_of(load.element)[i]]);
     return nodes;
   };
   EXPECT_EQ(loaded("    1    1    1    2    3    3", 1), "12");

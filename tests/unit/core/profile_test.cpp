@@ -46,9 +46,9 @@ TEST(Profile, EveryMomentBelongsToOnePhase) {
 
   ASSERT_EQ(profile.phases().size(), 3u);
   const int outer = find(profile, "outer"), inner = find(profile, "inner");
-  EXPECT_EQ(profile.phases()[static_cast<std::size_t>(outer)].calls, 3);
-  EXPECT_EQ(profile.phases()[static_cast<std::size_t>(inner)].calls, 6);
-  EXPECT_EQ(profile.phases()[static_cast<std::size_t>(inner)].parent, outer);
+  EXPECT_EQ(profile.phases()[outer].calls, 3);
+  EXPECT_EQ(profile.phases()[inner].calls, 6);
+  EXPECT_EQ(profile.phases()[inner].parent, outer);
   EXPECT_GE(profile.seconds("inner"), 3 * kNap);
   EXPECT_GE(profile.seconds("outer"), 3 * kNap);
   EXPECT_GE(profile.phases()[0].seconds, kNap);
@@ -68,7 +68,7 @@ TEST(Profile, ThrownThroughAPhaseEndsIt) {
   } catch (const std::runtime_error&) {
   }
   const Profile::Scope next(profile, "next");
-  EXPECT_EQ(profile.phases()[static_cast<std::size_t>(find(profile, "next"))].parent, 0);
+  EXPECT_EQ(profile.phases()[find(profile, "next")].parent, 0);
 }
 
 TEST(Profile, APartBringsItsPhases) {
@@ -101,8 +101,7 @@ TEST(Profile, APartBringsItsPhases) {
   EXPECT_EQ(whole.operations_with_all(analysis), 12e6);
   EXPECT_EQ(whole.operations_with_all(2), 10e6) << "of one of two phases of the name";
   EXPECT_NEAR(whole.seconds_with_all(analysis),
-              whole.phases()[static_cast<std::size_t>(analysis)].seconds + whole.seconds("factorisation") +
-                  whole.seconds("rest of it"),
+              whole.phases()[analysis].seconds + whole.seconds("factorisation") + whole.seconds("rest of it"),
               1e-12);
 }
 

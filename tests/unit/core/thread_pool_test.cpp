@@ -16,7 +16,7 @@ TEST(ThreadPool, EveryIndexRunsOnceInEveryRound) {
     for (int round = 0; round < 50; ++round) {
       std::vector<std::atomic<int>> runs(37);
       const auto work = [&](int index, int thread) {
-        ++runs[static_cast<std::size_t>(index)];
+        ++runs[index];
         EXPECT_LT(thread, pool.threads());
       };
       pool.run(37, work);

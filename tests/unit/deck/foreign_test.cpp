@@ -49,7 +49,7 @@ std::map<int, GoldenCard> golden(const std::string& name) {
 
 // Texts, then integers, then reals of a card as the table has them.
 void compare(const Deck& deck, const Card& card, const GoldenCard& expected) {
-  const CardSpec& spec = deck.specs[static_cast<std::size_t>(card.spec)];
+  const CardSpec& spec = deck.specs[card.spec];
   SCOPED_TRACE(spec.label + ", line " + std::to_string(card.line));
   std::vector<std::string> texts;
   std::vector<double> integers, reals;

@@ -187,7 +187,7 @@ std::vector<Site> sites(const Sound& s) {
   std::vector<Site> all;
   const std::string& text = *s.deck.source.text();
   for (const Card& card : s.deck.cards) {
-    const CardSpec& spec = s.deck.specs[static_cast<std::size_t>(card.spec)];
+    const CardSpec& spec = s.deck.specs[card.spec];
     const std::vector<FieldValue> values = s.deck.values(card);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const std::size_t field = std::min(i, spec.fields.size() - 1);

@@ -21,9 +21,7 @@ class Random {
   explicit Random(unsigned seed) : engine_(seed) {}
   int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
   bool chance(int percent) { return below(100) < percent; }
-  char of(std::string_view letters) {
-    return letters[static_cast<std::size_t>(below(static_cast<int>(letters.size())))];
-  }
+  char of(std::string_view letters) { return letters[below(static_cast<int>(letters.size()))]; }
 
  private:
   std::mt19937 engine_;
@@ -73,8 +71,8 @@ std::string field(Random& random, char kind, int width) {
                                                    : random.below(width - static_cast<int>(text.size()) + 1)),
         ' ');
   if (random.chance(6) && !text.empty())
-    text[static_cast<std::size_t>(random.below(static_cast<int>(text.size())))] = random.of(" ,.+-0Ox\tE:/*");
-  text.resize(static_cast<std::size_t>(width), ' ');
+    text[random.below(static_cast<int>(text.size()))] = random.of(" ,.+-0Ox\tE:/*");
+  text.resize(width, ' ');
   return text;
 }
 
@@ -157,8 +155,7 @@ std::string format_items(Random& random, std::vector<Item>& items, int depth, bo
 std::string record_for(Random& random, const std::vector<Item>& items) {
   std::string record;
   for (const Item& item : items) record += field(random, item.kind, item.width);
-  if (random.chance(25))
-    record.resize(static_cast<std::size_t>(random.below(static_cast<int>(record.size()) + 1)));
+  if (random.chance(25)) record.resize(random.below(static_cast<int>(record.size()) + 1));
   if (random.chance(25)) record.erase(record.find_last_not_of(' ') + 1);
   return record;
 }
@@ -213,7 +210,7 @@ FortranCase list_case(Random& random) {
     } else if (!random.chance(4)) {
       std::string text = number(random, kind == 'D');
       if (random.chance(4) && !text.empty())
-        text[static_cast<std::size_t>(random.below(static_cast<int>(text.size())))] = random.of("x.*+,/");
+        text[random.below(static_cast<int>(text.size()))] = random.of("x.*+,/");
       made.text += text;
     }
     static constexpr const char* separators[] = {" ",  " ",   "  ",   ",",   ", ", " , ", "\n",

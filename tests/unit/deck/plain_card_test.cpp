@@ -53,9 +53,7 @@ class Random {
   explicit Random(unsigned seed) : engine_(seed) {}
   int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
   bool chance(int percent) { return below(100) < percent; }
-  char of(std::string_view letters) {
-    return letters[static_cast<std::size_t>(below(static_cast<int>(letters.size())))];
-  }
+  char of(std::string_view letters) { return letters[below(static_cast<int>(letters.size()))]; }
 
  private:
   std::mt19937 engine_;
@@ -65,8 +63,7 @@ std::string number(Random& random, char kind, int width) {
   std::string text = random.chance(15) ? std::string(1, random.of("+-")) : "";
   const int digits = random.chance(25) ? width - static_cast<int>(text.size()) : 1 + random.below(width);
   for (int i = 0; i < digits; ++i) text += random.of("0123456789");
-  if (kind == 'D' && random.chance(85))
-    text[static_cast<std::size_t>(random.below(static_cast<int>(text.size())))] = '.';
+  if (kind == 'D' && random.chance(85)) text[random.below(static_cast<int>(text.size()))] = '.';
   if (kind == 'D' && random.chance(10)) text += random.of("EDed+-") + std::to_string(random.below(30));
   if (kind == 'A') text = random.chance(70) ? "" : "clay";
   return random.chance(12) ? "" : text;
@@ -81,11 +78,10 @@ std::string record(Random& random, const Form& form) {
     const int free = width - static_cast<int>(field.size());
     const int before = free <= 0 ? 0 : random.chance(85) ? free : random.below(free + 1);
     field.insert(0, static_cast<std::size_t>(before), ' ');
-    field.resize(static_cast<std::size_t>(width), ' ');
+    field.resize(width, ' ');
     text += field;
   }
-  if (random.chance(5))
-    text[static_cast<std::size_t>(random.below(static_cast<int>(text.size())))] = random.of(" ,.+-0Ox\tE");
+  if (random.chance(5)) text[random.below(static_cast<int>(text.size()))] = random.of(" ,.+-0Ox\tE");
   if (random.chance(4)) text.insert(static_cast<std::size_t>(random.below(static_cast<int>(text.size()))), " ");
   if (random.chance(4)) text.erase(static_cast<std::size_t>(random.below(static_cast<int>(text.size()))), 1);
   if (random.chance(30)) text.erase(text.find_last_not_of(' ') + 1);

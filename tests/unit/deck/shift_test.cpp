@@ -146,7 +146,7 @@ struct CardLine {
 std::vector<CardLine> card_lines(const Sound& s) {
   std::map<int, const CardSpec*> spec_of;
   for (const Card& card : s.deck.cards) {
-    const CardSpec* spec = &s.deck.specs[static_cast<std::size_t>(card.spec)];
+    const CardSpec* spec = &s.deck.specs[card.spec];
     spec_of.try_emplace(card.line, spec);
     for (const FieldValue& value : s.deck.values(card)) spec_of.try_emplace(value.line, spec);
   }

@@ -74,8 +74,7 @@ TEST(InterfaceElement, ExtrapolationFollowsTheElementsOwnVariation) {
     const std::span<const double> to_nodes = element->point_to_node(x);
     for (int n = 0; n < t.nodes; ++n) {
       double sum = 0.0;
-      for (int p = 0; p < t.points; ++p)
-        sum += to_nodes[static_cast<std::size_t>(n * t.points + p)] * value(element->position(x, p).x());
+      for (int p = 0; p < t.points; ++p) sum += to_nodes[n * t.points + p] * value(element->position(x, p).x());
       EXPECT_NEAR(sum, value(x(0, n)), 1e-12) << "node " << n;
     }
   }

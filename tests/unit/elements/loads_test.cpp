@@ -111,7 +111,7 @@ TEST(EdgeLoad, BalancesUniformStress) {
       run.evaluate(Eigen::VectorXd::Zero(element->traits().dofs));
       Eigen::Matrix2Xd f = Eigen::Matrix2Xd::Zero(2, c.entry->nodes);
       for (int e = 0; e < c.entry->corners; ++e) {
-        const std::vector<int>& edge = element->edges()[static_cast<std::size_t>(e)];
+        const std::vector<int>& edge = element->edges()[e];
         const Vector2 s = (x.col(edge[1]) - x.col(edge[0])).normalized(), out(s.y(), -s.x());
         const Vector2 t(sigma(0) * out.x() + sigma(3) * out.y(), sigma(3) * out.x() + sigma(1) * out.y());
         f += edge_forces(*element, x, e, Vector2::Constant(-t.dot(out)), Vector2::Constant(t.dot(s)));

@@ -53,13 +53,13 @@ TYPED_TEST(Shapes, EdgesAreLines) {
     const std::vector<int>& edge = TypeParam::edges()[e];
     ASSERT_EQ(edge.size(), static_cast<std::size_t>(Line::nodes));
     EXPECT_EQ(edge[1], TypeParam::edges()[(e + 1) % TypeParam::corners][0]) << "edges follow one another";
-    const ParentPoint a = TypeParam::node_at[static_cast<std::size_t>(edge[0])];
-    const ParentPoint b = TypeParam::node_at[static_cast<std::size_t>(edge[1])];
+    const ParentPoint a = TypeParam::node_at[edge[0]];
+    const ParentPoint b = TypeParam::node_at[edge[1]];
     for (const double xi : {-0.7, 0.1, 0.45}) {
       const double s = 0.5 * (1.0 + xi);
       auto N = TypeParam::N({a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1])});
       const auto line = Line::N(xi);
-      for (int i = 0; i < Line::nodes; ++i) N(edge[static_cast<std::size_t>(i)]) -= line(i);
+      for (int i = 0; i < Line::nodes; ++i) N(edge[i]) -= line(i);
       EXPECT_LT(N.norm(), 1e-14);
     }
   }

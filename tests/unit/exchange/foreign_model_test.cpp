@@ -45,9 +45,8 @@ TEST(ForeignModel, Quad4mAreasAgreeWithItsOwnEcho) {
     for (int e = 0; e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       group.element->geometry(x, geometry);
-      double& sum = area[group.element_numbers[static_cast<std::size_t>(e)]];
-      for (int p = 0; p < traits.points; ++p)
-        sum += geometry[static_cast<std::size_t>(p * (1 + traits.law_size * traits.dofs))];
+      double& sum = area[group.element_numbers[e]];
+      for (int p = 0; p < traits.points; ++p) sum += geometry[p * (1 + traits.law_size * traits.dofs)];
     }
   }
   std::ifstream in(SAGE_SOURCE_DIR "/tests/unit/exchange/data/quad4m_areas.csv");

@@ -56,8 +56,8 @@ std::string listed(const Model& model, const std::string& shape, int points, boo
   std::map<int, std::pair<int, std::vector<int>>> by_number;
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     for (int e = 0; e < model.groups[g].elements(); ++e)
-      by_number[model.groups[g].element_numbers[static_cast<std::size_t>(e)]] = {
-          static_cast<int>(g) + 1, round_the_element(model.groups[g], e, clockwise)};
+      by_number[model.groups[g].element_numbers[e]] = {static_cast<int>(g) + 1,
+                                                       round_the_element(model.groups[g], e, clockwise)};
   if (model.groups.size() > 1) {
     for (const auto& [number, element] : by_number) text += fmt::format("{} ", element.first);
     text += "\n";

@@ -38,8 +38,7 @@ std::string rejection(const std::string& text, const ForeignMeshOptions& options
 std::string summary(const Model& model) {
   std::string text;
   for (int i = 0; i < model.mesh.nodes(); ++i)
-    text += fmt::format("{} {} {}\n", model.mesh.number[static_cast<std::size_t>(i)], model.mesh.x(0, i),
-                        model.mesh.x(1, i));
+    text += fmt::format("{} {} {}\n", model.mesh.number[i], model.mesh.x(0, i), model.mesh.x(1, i));
   for (const Group& group : model.groups)
     text += fmt::format("{} {}: {} of {}\n", group.name, group.element_name, fmt::join(group.nodes, " "),
                         fmt::join(group.element_numbers, " "));
@@ -287,8 +286,7 @@ TEST(MeshFiles, WallsAndWaterByName) {
   ASSERT_EQ(model.groups.size(), 2u);
   EXPECT_EQ(model.groups[1].entry->name, "beam3");
   std::vector<int> numbers;
-  for (const int node : model.groups[1].nodes)
-    numbers.push_back(model.mesh.number[static_cast<std::size_t>(node)]);
+  for (const int node : model.groups[1].nodes) numbers.push_back(model.mesh.number[node]);
   EXPECT_EQ(numbers, (std::vector<int>{6, 4, 17, 4, 1, 14}));
   ASSERT_EQ(model.water.size(), 1u);
   EXPECT_EQ(model.water[0].line.size(), 3u);

@@ -11,13 +11,12 @@ double area(const Rectangle& mesh, int element) {
   const int k = mesh.intervals();
   for (int j = 0; j <= k * mesh.rows(); ++j)
     for (int i = 0; i <= k * mesh.columns(); ++i)
-      if (mesh.exists(i, j)) at[static_cast<std::size_t>(mesh.number(i, j))] = mesh.position(i, j);
+      if (mesh.exists(i, j)) at[mesh.number(i, j)] = mesh.position(i, j);
   const std::vector<int> nodes = mesh.nodes(element);
   const std::size_t corners = mesh.triangles ? 3 : 4;
   double twice = 0.0;
   for (std::size_t c = 0; c < corners; ++c) {
-    const Vector2 a = at[static_cast<std::size_t>(nodes[c])],
-                  b = at[static_cast<std::size_t>(nodes[(c + 1) % corners])];
+    const Vector2 a = at[nodes[c]], b = at[nodes[(c + 1) % corners]];
     twice += a.x() * b.y() - b.x() * a.y();
   }
   return twice / 2.0;

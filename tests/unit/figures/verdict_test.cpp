@@ -25,7 +25,7 @@ SpecimenRun sloped() {
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
       run.cells.push_back({(i + 0.5) / 4, (j + 0.5) / 4, 1.0 / 16, i >= 2 && j >= 2});
-      state.at_elements[at(Quantity::conf)][static_cast<std::size_t>(4 * j + i)] = 30.0 * (j + 0.5) / 4;
+      state.at_elements[at(Quantity::conf)][4 * j + i] = 30.0 * (j + 0.5) / 4;
       state.level.push_back(j < 2 && i < 2 ? 1.0 : 0.5);
     }
   run.states.push_back(state);

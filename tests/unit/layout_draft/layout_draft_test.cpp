@@ -70,15 +70,14 @@ Anatomy anatomy(const Deck& deck) {
   Anatomy found;
   int spec = -1;
   for (const Card& card : deck.cards) {
-    if (deck.specs[static_cast<std::size_t>(card.spec)].made) continue;  // stands on no line
+    if (deck.specs[card.spec].made) continue;  // stands on no line
     int last = card.line;
     const std::vector<FieldValue> values = deck.values(card);
     for (const FieldValue& value : values) {
       last = std::max(last, value.line);
       if (!value.blank && !trimmed(value.text).empty()) found.places.insert(place_of(value));
     }
-    if (card.spec != spec)
-      found.blocks.push_back({deck.specs[static_cast<std::size_t>(card.spec)].name, card.line, last});
+    if (card.spec != spec) found.blocks.push_back({deck.specs[card.spec].name, card.line, last});
     found.blocks.back().last = std::max(found.blocks.back().last, last);
     spec = card.spec;
   }

@@ -115,11 +115,9 @@ class Random {
   int of(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
   double poisson() {
     constexpr std::array<double, 9> near{0.0, 0.3, 0.45, 0.49, 0.499, 0.4999, 0.49999, 0.499999, 0.4999999};
-    return of(3) == 0 ? between(0.0, 0.49) : near[static_cast<std::size_t>(of(9))];
+    return of(3) == 0 ? between(0.0, 0.49) : near[of(9)];
   }
-  double dilation(double phi) {
-    return std::array<double, 3>{0.0, phi, between(0.0, phi)}[static_cast<std::size_t>(of(3))];
-  }
+  double dilation(double phi) { return std::array<double, 3>{0.0, phi, between(0.0, phi)}[of(3)]; }
 
  private:
   std::mt19937_64 engine_{20261126};
@@ -163,7 +161,7 @@ const SolidLaw& solid(const LawPtr& law) {
 double off_target(const std::array<Control, 4>& control, const Vector4& goal, const Vector4& sigma) {
   double off = 0.0;
   for (int i = 0; i < 4; ++i)
-    if (control[static_cast<std::size_t>(i)] == kStress) off = std::max(off, std::abs(sigma[i] - goal[i]));
+    if (control[i] == kStress) off = std::max(off, std::abs(sigma[i] - goal[i]));
   return off / std::max(sigma.cwiseAbs().maxCoeff(), 1e-300);
 }
 
@@ -181,7 +179,7 @@ class Comparison {
     const double target = c_.test == Path::isotropic ? p + share * (-c_.to - p) : p;
     Vector4 goal = given_;
     for (int i = 0; i < 4; ++i)
-      if (open_.control[static_cast<std::size_t>(i)] == kStress) goal[i] = target;
+      if (open_.control[i] == kStress) goal[i] = target;
     const int parts = driver_.steps();
     bool blank = false;
     try {
@@ -244,7 +242,7 @@ void drive_any(Random& random, const Case& c, Tally& tally) {
   for (Control& one : control) one = random.of(2) == 0 ? kStrain : kStress;
   Vector4 goal(p, p, p, 0.0);
   for (int i = 0; i < 4; ++i)
-    if (control[static_cast<std::size_t>(i)] == kStrain) goal[i] = random.between(-1.0, 1.0) * c.to / c.steps;
+    if (control[i] == kStrain) goal[i] = random.between(-1.0, 1.0) * c.to / c.steps;
   try {
     PointDriver<4> driver(solid(law), {p, p, p, 0.0});
     ++tally.cases;
@@ -272,7 +270,7 @@ Path any_test(Random& random) {
 // Strain of the whole test from that which reaches a strength, mostly beyond it.
 void set_length(Random& random, Case& c, double strength, double E) {
   c.to = random.scaled(0.1, 300.0) * std::max(strength, 1e-3 * c.pressure) / E;
-  c.steps = std::array<int, 4>{1, 3, 10, 25}[static_cast<std::size_t>(random.of(4))];
+  c.steps = std::array<int, 4>{1, 3, 10, 25}[random.of(4)];
   if (c.test == Path::isotropic) c.to = c.pressure * random.scaled(0.5, 50.0);
 }
 
@@ -363,7 +361,7 @@ Case softening_case(Random& random) {
 
 Case hyperbolic_case(Random& random) {
   const std::array<int, 4> codes{5, 6, 7, 10};
-  const int code = codes[static_cast<std::size_t>(random.of(4))];
+  const int code = codes[random.of(4)];
   const double K = random.scaled(50.0, 1000.0), phi = random.between(15.0, 45.0),
                c = random.of(2) * random.between(0.0, 20.0);
   std::vector<double> v{K, random.between(0.2, 0.8), random.between(0.6, 0.95), 1.5 * K};

@@ -297,7 +297,7 @@ TEST(ModifiedCamClay, CyclesDoNotDrift) {
 TEST(ModifiedCamClay, RefusesWhatCannotBeMeant) {
   const auto refused = [](int place, double value) {
     std::vector<double> values = parameters(2.0, {0, 0, 0, 1e-4});
-    values[static_cast<std::size_t>(place)] = value;
+    values[place] = value;
     EXPECT_THROW(test::solid(11, values), ParameterError) << place << " " << value;
   };
   for (const auto& [place, value] : {std::pair{0, 0.0},

@@ -200,8 +200,8 @@ class ClosestPoint {
     Matrix<3> A = Matrix<3>::Zero(), unused = Matrix<3>::Zero();
     Vector<3> y = Vector<3>::Zero();
     for (int i = 0; i < 3; ++i) {
-      const std::size_t plane = set[static_cast<std::size_t>(i)];
-      const bool repeated = i > 0 && plane == set[static_cast<std::size_t>(i - 1)];
+      const std::size_t plane = set[i];
+      const bool repeated = i > 0 && plane == set[i - 1];
       if (plane == normals_.size() || repeated) {
         unused(i, i) = 1.0;
       } else {

@@ -67,7 +67,7 @@ void expect_range(int code, std::vector<double> values, int index, double lowest
   const double beyond = 1e-4 * (highest - lowest);
   const auto with = [&](double value) {
     std::vector<double> changed = values;
-    changed[static_cast<std::size_t>(index)] = value;
+    changed[index] = value;
     return refusal(code, changed);
   };
   for (const double value : {lowest, highest})

@@ -53,13 +53,13 @@ std::map<Point, std::array<double, 4>> held(const Model& model, const std::vecto
 std::map<std::pair<Point, Point>, std::array<long, 4>> loads(const Model& model, const Stage& stage) {
   std::map<std::pair<Point, Point>, std::array<long, 4>> all;
   for (const EdgeLoad& p : stage.pressures) {
-    const Group& group = model.groups[static_cast<std::size_t>(p.group)];
-    const auto& edge = group.element->edges()[static_cast<std::size_t>(p.edge)];
+    const Group& group = model.groups[p.group];
+    const auto& edge = group.element->edges()[p.edge];
     const int* nodes = group.nodes_of(p.element);
     auto& entry = all[{at(model, nodes[edge[0]]), at(model, nodes[edge[1]])}];
     for (int i = 0; i < 2; ++i) {
-      entry[static_cast<std::size_t>(i)] += std::lround(1e6 * p.normal[i]);
-      entry[static_cast<std::size_t>(2 + i)] += std::lround(1e6 * p.shear[i]);
+      entry[i] += std::lround(1e6 * p.normal[i]);
+      entry[2 + i] += std::lround(1e6 * p.shear[i]);
     }
   }
   return all;

@@ -88,11 +88,11 @@ double area(const Model& model) {
   std::vector<double> geometry;
   for (const Group& group : model.groups) {
     const ElementTraits& t = group.element->traits();
-    geometry.resize(static_cast<std::size_t>(t.geometry_size()));
+    geometry.resize(t.geometry_size());
     for (int e = 0; group.solid() && e < group.elements(); ++e) {
       element_coordinates(model.mesh, group, e, x);
       group.element->geometry(x, geometry);
-      for (int p = 0; p < t.points; ++p) sum += geometry[static_cast<std::size_t>(p * (1 + 4 * t.dofs))];
+      for (int p = 0; p < t.points; ++p) sum += geometry[p * (1 + 4 * t.dofs)];
     }
   }
   return sum;
@@ -238,7 +238,7 @@ TEST(Refine, PatchTest) {
         outline.insert(side.begin(), side.end());
       const Model places = build(block_deck(cell).text());
       for (int i = 0; i < places.mesh.deck_nodes; ++i) {
-        const int number = places.mesh.number[static_cast<std::size_t>(i)];
+        const int number = places.mesh.number[i];
         const Vector2 x = places.mesh.x.col(i);
         if (outline.count(number))
           deck.stages.front().fix(number, 1, 1, 1e-3 * (x.x() + 0.5 * x.y()), 1e-3 * (x.y() + 0.5 * x.x()));

@@ -36,7 +36,7 @@ TEST(TriaxialReport, CompressedCylinderIsPositive) {
   const std::vector<TriaxialRow>& rows = reports.triaxial(0);
   ASSERT_EQ(rows.size(), 4u);
   for (int i = 0; i < 4; ++i) {
-    const TriaxialRow& row = rows[static_cast<std::size_t>(i)];
+    const TriaxialRow& row = rows[i];
     const double strain = 0.005 * (i + 1);
     EXPECT_EQ(row.stage, 1);
     EXPECT_EQ(row.increment, i + 1);

@@ -62,13 +62,13 @@ TEST(ReduceStrength, CurvedEnvelopeAtTwoPressures) {
   const int c = entry.find("cohesion"), phi = entry.find("friction_angle"), loss = entry.find("friction_loss");
   ASSERT_TRUE(c >= 0 && phi > c && loss > phi);
   std::vector<double> p(entry.parameters.size(), 0.5);
-  p[static_cast<std::size_t>(c)] = 8.0;
-  p[static_cast<std::size_t>(phi)] = 40.0;
-  p[static_cast<std::size_t>(loss)] = 6.0;
+  p[c] = 8.0;
+  p[phi] = 40.0;
+  p[loss] = 6.0;
   EXPECT_TRUE(reduce_strength(p, entry, {1.6, DilationRule::none}));
-  EXPECT_NEAR(p[static_cast<std::size_t>(c)], 5.0, 1e-12);
-  EXPECT_NEAR(p[static_cast<std::size_t>(phi)], divided(40.0, 1.6), 1e-12);
-  EXPECT_NEAR(p[static_cast<std::size_t>(phi)] - p[static_cast<std::size_t>(loss)], divided(34.0, 1.6), 1e-12);
+  EXPECT_NEAR(p[c], 5.0, 1e-12);
+  EXPECT_NEAR(p[phi], divided(40.0, 1.6), 1e-12);
+  EXPECT_NEAR(p[phi] - p[loss], divided(34.0, 1.6), 1e-12);
 }
 
 // Force and moment / F; an axial strength of 0 is none.

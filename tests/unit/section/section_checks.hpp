@@ -62,7 +62,7 @@ class MeshCheck {
   }
 
   // Of the area, its curved edges taken as parabolas through three nodes.
-  double area(int a) const { return areas_[static_cast<std::size_t>(a)]; }
+  double area(int a) const { return areas_[a]; }
   // Of all edges that one element alone has.
   double free_length() const {
     double sum = 0.0;
@@ -71,11 +71,11 @@ class MeshCheck {
     return sum;
   }
   int elements(int a) const {
-    return static_cast<int>(mesh_.areas[static_cast<std::size_t>(a)].nodes.size()) / mesh_.nodes_per_element();
+    return static_cast<int>(mesh_.areas[a].nodes.size()) / mesh_.nodes_per_element();
   }
 
  private:
-  const Vector2& x(int node) const { return mesh_.x[static_cast<std::size_t>(node)]; }
+  const Vector2& x(int node) const { return mesh_.x[node]; }
 
   void check_elements() {
     const int corners = mesh_.corners(), n = mesh_.nodes_per_element();
@@ -123,7 +123,7 @@ class MeshCheck {
   void check_edge(const AreaEdge& edge, const LineMesh& line, int first, bool turned, const std::string& who) {
     if (!edge.there()) return;
     const int n = mesh_.nodes_per_element();
-    const int* of = mesh_.areas[static_cast<std::size_t>(edge.area)].nodes.data() + edge.element * n;
+    const int* of = mesh_.areas[edge.area].nodes.data() + edge.element * n;
     const int corner = of[(edge.edge + (turned ? 1 : 0)) % mesh_.corners()];
     EXPECT_EQ(corner, first) << who;
     EXPECT_TRUE(std::count(line.nodes.begin(), line.nodes.end(), corner)) << who;
@@ -133,12 +133,12 @@ class MeshCheck {
                        const std::string& who) {
     const auto& n = element.nodes;
     for (const auto& [i, j] : {std::pair(0, 3), std::pair(1, 2), std::pair(4, 5)}) {
-      if (n[static_cast<std::size_t>(i)] < 0) continue;
-      const int one = n[static_cast<std::size_t>(i)], other = n[static_cast<std::size_t>(j)];
+      if (n[i] < 0) continue;
+      const int one = n[i], other = n[j];
       EXPECT_NE(one, other) << who;
       EXPECT_EQ(x(one), x(other)) << who;
     }
-    const LineSegment& segment = line.segments[static_cast<std::size_t>(element.segment)];
+    const LineSegment& segment = line.segments[element.segment];
     const bool joint = line.beam.empty();
     // The body to the right has its own edge from node 2 to node 1, the body to the left from node 4 to node 3.
     if (joint || !on_left) {

@@ -264,7 +264,7 @@ TEST(SectionMesh, ALiningThatClosesHasThreeRows) {
       EXPECT_EQ(segment.left.area, 1);
       EXPECT_EQ(segment.right.area, 0);
     }
-    for (const int node : line.nodes) EXPECT_NEAR(mesh.x[static_cast<std::size_t>(node)].norm(), 2.0, 1e-12);
+    for (const int node : line.nodes) EXPECT_NEAR(mesh.x[node].norm(), 2.0, 1e-12);
     EXPECT_EQ(line.nodes.size(), 3 * (line.beam.size() - 1));
   }
 }
@@ -339,9 +339,7 @@ TEST(SectionMesh, RandomPolygonsWithWallsAndTunnels) {
       corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
     double area = 0.0;
-    for (int i = 0; i < n; ++i)
-      area +=
-          0.5 * cross2(corners[static_cast<std::size_t>(i)], corners[static_cast<std::size_t>((i + 1) % n)]);
+    for (int i = 0; i < n; ++i) area += 0.5 * cross2(corners[i], corners[(i + 1) % n]);
     section.areas.push_back(polygon(section, "ground", corners));
     section.size = 2.0;
     section.nodes_per_edge = 2 + k % 2;

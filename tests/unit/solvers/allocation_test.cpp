@@ -40,8 +40,7 @@ TEST_P(SolverAllocations, NoneAfterTheFirstFactorisationAndSolution) {
   std::vector<double> x(n);
   const auto iterate = [&] {
     solver->clear();
-    for (int e = 0; e < system.elements.count(); ++e)
-      solver->add(e, system.K[static_cast<std::size_t>(e)].data());
+    for (int e = 0; e < system.elements.count(); ++e) solver->add(e, system.K[e].data());
     solver->factorise();
     EXPECT_EQ(solver->solve(b, x), SolveStatus::ok);
   };

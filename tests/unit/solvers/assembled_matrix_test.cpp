@@ -18,13 +18,13 @@ namespace {
 using Eigen::MatrixXd;
 
 void add_all(AssembledMatrix& matrix, const System& system) {
-  for (int e = 0; e < system.elements.count(); ++e) matrix.add(e, system.K[static_cast<std::size_t>(e)].data());
+  for (int e = 0; e < system.elements.count(); ++e) matrix.add(e, system.K[e].data());
 }
 
 void add_in_parts(AssembledMatrix& matrix, const System& system, int parts) {
   for (int part = parts - 1; part >= 0; --part)
     for (int e = 0; e < system.elements.count(); ++e) {
-      const auto& K = system.K[static_cast<std::size_t>(e)];
+      const auto& K = system.K[e];
       matrix.add_part({e, 1, K.data(), static_cast<std::size_t>(K.size())}, part, parts);
     }
 }
@@ -52,8 +52,7 @@ AssembledMatrix assemble(const System& system, bool symmetric) {
 MatrixXd dense(const AssembledMatrix& matrix) {
   MatrixXd A = MatrixXd::Zero(matrix.equations(), matrix.equations());
   for (int j = 0; j < matrix.equations(); ++j)
-    for (auto k = matrix.column_start()[static_cast<std::size_t>(j)];
-         k < matrix.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
+    for (auto k = matrix.column_start()[j]; k < matrix.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
       const int i = matrix.row()[static_cast<std::size_t>(k)];
       A(i, j) = matrix.value()[static_cast<std::size_t>(k)];
       if (matrix.symmetric()) A(j, i) = A(i, j);
@@ -88,7 +87,7 @@ TEST(AssembledMatrix, EquationsInPairsAreSummedAsOthers) {
     const int corner = e / kColumns * (kColumns + 1) + e % kColumns;
     std::vector<int> equations;
     for (const int node : {corner, corner + 1, corner + kColumns + 2, corner + kColumns + 1})
-      for (const int i : {0, 1}) equations.push_back(first[static_cast<std::size_t>(2 * node + i)]);
+      for (const int i : {0, 1}) equations.push_back(first[2 * node + i]);
     MatrixXd K(8, 8);
     for (int i = 0; i < 64; ++i) K(i) = std::sin(1.0 + 3.7 * i * (e + 1)) * (i % 5 - 2);
     system.add_element(equations, K);
@@ -99,8 +98,7 @@ TEST(AssembledMatrix, EquationsInPairsAreSummedAsOthers) {
   std::vector<double> maxima;
   matrix.row_maxima(maxima);
   const MatrixXd own = dense(matrix).cwiseAbs();
-  for (int i = 0; i < system.equations; ++i)
-    EXPECT_EQ(maxima[static_cast<std::size_t>(i)], own.row(i).maxCoeff());
+  for (int i = 0; i < system.equations; ++i) EXPECT_EQ(maxima[i], own.row(i).maxCoeff());
 }
 
 TEST(AssembledMatrix, ASymmetricOneReadsTheUpperTriangleOnly) {
@@ -140,10 +138,9 @@ TEST(AssembledMatrix, ColumnsAscendAndHoldTheDiagonal) {
   const AssembledMatrix matrix = assemble(system, false);
   for (int j = 0; j < matrix.equations(); ++j) {
     bool diagonal = false;
-    for (auto k = matrix.column_start()[static_cast<std::size_t>(j)];
-         k < matrix.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
+    for (auto k = matrix.column_start()[j]; k < matrix.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
       diagonal |= matrix.row()[static_cast<std::size_t>(k)] == j;
-      if (k > matrix.column_start()[static_cast<std::size_t>(j)]) {
+      if (k > matrix.column_start()[j]) {
         EXPECT_LT(matrix.row()[static_cast<std::size_t>(k - 1)], matrix.row()[static_cast<std::size_t>(k)]);
       }
     }

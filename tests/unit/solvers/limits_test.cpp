@@ -28,7 +28,7 @@ namespace {
 // `equations` equations that all meet one another, as one element that has them all would make them.
 EquationGraph dense_graph(int equations) {
   EquationGraph graph;
-  graph.group_of.assign(static_cast<std::size_t>(equations), 0);
+  graph.group_of.assign(equations, 0);
   for (int i = 0; i < equations; ++i) graph.members.item.push_back(i);
   graph.members.start = {0, equations};
   graph.neighbours.start = {0, 0};
@@ -179,7 +179,7 @@ TEST(Cholmod, FactorisesALargeIndefiniteMatrixAgain) {
   for (const double scale : {1.0, 2.0}) {
     solver->clear();
     for (int e = 0; e < system.elements.count(); ++e) {
-      const Eigen::MatrixXd K = scale * system.K[static_cast<std::size_t>(e)];
+      const Eigen::MatrixXd K = scale * system.K[e];
       solver->add(e, K.data());
     }
     solver->factorise();

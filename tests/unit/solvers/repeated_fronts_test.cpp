@@ -36,7 +36,7 @@ int repeated(LinearSolver& solver) {
 
 void add_all(LinearSolver& solver, const System& system) {
   solver.clear();
-  for (int e = 0; e < system.elements.count(); ++e) solver.add(e, system.K[static_cast<std::size_t>(e)].data());
+  for (int e = 0; e < system.elements.count(); ++e) solver.add(e, system.K[e].data());
 }
 
 void expect_same_answers(const LinearSolver& one, const LinearSolver& other, int equations, int border) {
