@@ -283,7 +283,7 @@ void Analysis::Stages::leave_step() {
 // Newton's matrix is singular then; a matrix that is kept from before finds an equilibrium all the same.
 void Analysis::Stages::find_loose_part(const StepReport& report) {
   std::string& part = state_.path.loose_part;
-  if (!part.empty() || report.points[PointStatus::open] == 0) return;
+  if (!part.empty() || report.points[static_cast<std::size_t>(PointStatus::open)] == 0) return;
   part = explain_loose_part(model_, system_.activity(), system_.assembly());
   if (!part.empty()) part = "increment " + std::to_string(report.increment) + ": " + part;
 }

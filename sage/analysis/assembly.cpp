@@ -304,7 +304,7 @@ std::array<long, kStatuses> Assembly::count_points() const {
   for (const GroupData& data : groups_) {
     if (!data.active) continue;
     for (std::size_t p = 0; p < data.state.committed.status.size(); ++p)
-      ++counts[shown_status(model_->mesh, data, p)];
+      ++counts[static_cast<std::size_t>(shown_status(model_->mesh, data, p))];
   }
   return counts;
 }

@@ -134,7 +134,7 @@ std::array<long, kStatuses> trial_points(const Assembly& assembly) {
   std::array<long, kStatuses> counts{};
   for (const GroupData& data : assembly.groups())
     if (data.active)
-      for (PointStatus status : data.state.trial.status) ++counts[status];
+      for (PointStatus status : data.state.trial.status) ++counts[static_cast<std::size_t>(status)];
   return counts;
 }
 
@@ -220,7 +220,7 @@ std::string tried_line(const Stage& stage, const StepReport& report) {
 // What the states say of a singular matrix whose solver can't name the equation.
 std::string likely_anywhere(const Model& model, const Activity& activity, const Assembly& assembly) {
   const std::array<long, kStatuses> points = trial_points(assembly);
-  const auto count = [&](PointStatus status) { return points[status]; };
+  const auto count = [&](PointStatus status) { return points[static_cast<std::size_t>(status)]; };
   std::string text;
   if (count(PointStatus::open) > 0) {
     const std::vector<int> part = parts_between_open_joints(model, assembly, StateKind::trial);

@@ -170,7 +170,7 @@ std::string draw_yielded(std::string& out, const Scenery& scenery) {
     if (point.kind == ElementKind::flow) return;  // water has no strength
     const PointStatus status = point.view.status;
     const bool yields = status != PointStatus::elastic && status != PointStatus::unloading;
-    PointCount& count = counts[point.kind];
+    PointCount& count = counts[static_cast<std::size_t>(point.kind)];
     ++count.all;
     count.yielded += yields ? 1 : 0;
     const double radius = yields ? 2.2 : 0.7;

@@ -370,7 +370,7 @@ std::string describe(const FieldChoice& choice, const Model& model) {
 
 std::string_view word_of(const FieldEntry& entry, double value) {
   if (!(value >= 0.0 && value < static_cast<double>(entry.words.size()))) return {};
-  return entry.words[value];
+  return entry.words[static_cast<std::size_t>(value)];
 }
 
 }  // namespace sage

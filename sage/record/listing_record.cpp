@@ -141,7 +141,7 @@ void increment(std::string& text, const StepReport& report) {
   append_scientific(text, last.displacement, 12, 3);
   append_scientific(text, last.energy, 13, 3);
   append_integer(text, report.cuts, 6);
-  for (PointStatus s : kAtStrength) append_integer(text, report.points[s], 9);
+  for (PointStatus s : kAtStrength) append_integer(text, report.points[static_cast<std::size_t>(s)], 9);
   text += report.converged ? "\n" : "   NOT CONVERGED\n";
 }
 

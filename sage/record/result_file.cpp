@@ -125,7 +125,7 @@ void describe_table(TableFile& out, const std::string& path, const FieldEntry& f
   constexpr const char* kSigns[] = {"", "compression positive", "along the axes"};
   out.text(path, "meaning", field.meaning);
   out.text(path, "unit", unit_text(field.dimension, model.units));
-  out.text(path, "sign", kSigns[field.sign]);
+  out.text(path, "sign", kSigns[static_cast<std::size_t>(field.sign)]);
   std::vector<std::string> names;
   for (const FieldComponent& component : field.components) names.push_back(component.name);
   if (!names.empty()) out.text(path, "components", joined(names));

@@ -40,7 +40,7 @@ std::string status_words(const Model& model, const RunResult& result) {
 std::string point_words(const std::array<long, kStatuses>& points) {
   std::string text;
   for (PointStatus s : kAtStrength) {
-    const long count = points[s];
+    const long count = points[static_cast<std::size_t>(s)];
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, status_name(s));
   }
   return text.empty() ? "none yielded, slipping or open" : text;
@@ -375,7 +375,7 @@ std::string summary(const Model& model, const RunRecord& record, const Reports* 
             extremes_table(model, all, model.stages.size() > 1);
   if (reports != nullptr) report_tables(text, model, *reports, digits);
   if (record.result.status == RunStatus::completed) {
-    const auto yielded = record.points[PointStatus::yielded];
+    const auto yielded = record.points[static_cast<std::size_t>(PointStatus::yielded)];
     text += record.pushes.text(model, yielded);
   }
   text += sketch;

@@ -10,7 +10,7 @@ namespace sage {
 
 std::string_view status_name(PointStatus status) {
   static const FieldEntry* const row = FieldTable().find("status");
-  return row->words[status];
+  return row->words[static_cast<std::size_t>(status)];
 }
 
 std::string_view method_name(Method method) {

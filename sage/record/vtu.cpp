@@ -22,7 +22,7 @@ namespace {
 std::string unit_label(const FieldEntry& field, const UnitSystem& units) {
   constexpr std::string_view kSigns[] = {"", "compression positive", "positive along the axes"};
   std::string text = field.dimension == Dimension::none ? "" : unit_text(field.dimension, units);
-  const std::string_view sign = kSigns[field.sign];
+  const std::string_view sign = kSigns[static_cast<std::size_t>(field.sign)];
   if (!text.empty() && !sign.empty()) text += ", ";
   text += sign;
   if (text.empty()) return text;

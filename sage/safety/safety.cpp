@@ -66,7 +66,7 @@ void take_motion(FactorTrial& trial, const Model& model, const Eigen::VectorXd& 
 
 long inelastic(const std::array<long, kStatuses>& points) {
   long count = 0;
-  for (PointStatus s : kAtStrength) count += points[s];
+  for (PointStatus s : kAtStrength) count += points[static_cast<std::size_t>(s)];
   return count;
 }
 
