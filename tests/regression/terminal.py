@@ -1,6 +1,5 @@
 """What sagefe shows on a terminal: a pseudo terminal is its standard error and output.
-usage: terminal.py SAGEFE SOURCE_FOLDER
-COARSER in the environment: refinements less, for a program that sanitizers slow down."""
+usage: terminal.py SAGEFE SOURCE_FOLDER"""
 import fcntl
 import os
 import pathlib
@@ -17,7 +16,6 @@ import termios
 SAGEFE, SOURCE = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
 CASES = SOURCE / "legacy_inputs/chapter7"
 DECK = str(CASES / "pinned_ld2_nu0333/deck.dat")
-COARSER = int(os.environ.get("COARSER", "0"))
 PHASE = "assembly|factorisation|solution|recovery|numbering"
 PLAIN = {"TERM": "xterm", "NO_COLOR": "", "LC_ALL": "C"}
 failures = []
@@ -64,14 +62,14 @@ def left_on_screen(text, columns=100):
 
 def check_progress(folder):
     # Which phases the few lines of a run of a second meet is chance: what has to be among them is asked of a longer run.
-    text, status = on_terminal(folder, "run", DECK, "--refine", str(5 - COARSER), "-o", "out")
+    text, status = on_terminal(folder, "run", DECK, "--refine", str(5), "-o", "out")
     shown = lines_of_progress(text)
     expect(status == 0 and len(shown) >= 3, "a long run shows its progress", status, shown)
     expect(any(re.search(PHASE, line) for line in shown), "a phase", shown)
     expect(any(re.search("increment [0-9]+ of 10", line) for line in shown), "increments", shown)
     expect(any("% " in line or "%," in line for line in shown), "share done", shown)
     expect(left_on_screen(text) == "", "nothing is left", left_on_screen(text))
-    large = ["run", DECK, "--refine", str(4 - COARSER), "-o", "out"]
+    large = ["run", DECK, "--refine", str(4), "-o", "out"]
     narrow, status = on_terminal(folder, *large, columns=24)
     shown = lines_of_progress(narrow)
     expect(shown and max(len(line) for line in shown) < 24, "lines do not wrap", shown)
@@ -84,7 +82,7 @@ def check_progress(folder):
 
 
 def check_nonlinear(folder):
-    text, status = on_terminal(folder, "run", str(CASES / "dp_285/deck.dat"), "--refine", str(3 - COARSER), "-o", "out",
+    text, status = on_terminal(folder, "run", str(CASES / "dp_285/deck.dat"), "--refine", str(3), "-o", "out",
                                 columns=200)
     shown = lines_of_progress(text)
     expect(any(re.search(r"iteration [0-9]+, residual [0-9.]+e", line) for line in shown), "iterations", shown)
@@ -92,7 +90,7 @@ def check_nonlinear(folder):
 
 
 def check_ends(folder):
-    for command in (["run", DECK, "--refine", str(5 - COARSER), "-o", "out"], ["verify"]):
+    for command in (["run", DECK, "--refine", str(5), "-o", "out"], ["verify"]):
         for number in (signal.SIGTERM, signal.SIGINT):
             text, status = on_terminal(folder, *command, send=number)
             if command[0] == "run":  # half a second after its start, where up to 400 000 elements are still being prepared
