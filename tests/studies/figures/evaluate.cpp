@@ -532,7 +532,7 @@ bool is_near_limit(const Check& check, double number) {
 
 const char* name_of(Alteration alteration) {
   constexpr const char* kNames[] = {"none", "swapped", "same", "mirrored", "shuffled", "sign", "lifted"};
-  return kNames[alteration];
+  return kNames[static_cast<std::size_t>(alteration)];
 }
 
 SpecimenRun altered(const SpecimenRun& run, Alteration how) {

@@ -24,7 +24,7 @@ const char* name_of(Quantity quantity) {
                                     "normal",
                                     "shear",
                                     "stress level of the interface"};
-  return kNames[quantity];
+  return kNames[static_cast<std::size_t>(quantity)];
 }
 
 const char* name_of(Place place) {
@@ -331,8 +331,8 @@ std::string tally(const std::vector<Result>& results, int figure) {
   std::array<int, 5> count{}, near{};
   for (const Result& result : results) {
     if (figure != 0 && result.check->figure != figure) continue;
-    ++count[result.verdict];
-    near[result.verdict] += result.near_limit ? 1 : 0;
+    ++count[static_cast<std::size_t>(result.verdict)];
+    near[static_cast<std::size_t>(result.verdict)] += result.near_limit ? 1 : 0;
   }
   std::string text;
   for (std::size_t v = 0; v < count.size(); ++v) {

@@ -72,7 +72,7 @@ class Watcher final : public Observer {
     long solid = 0;
     for (const Group& group : model.groups)
       if (group.solid()) solid += group.elements() * group.element->traits().points;
-    const auto count = [&](PointStatus status) { return points[status]; };
+    const auto count = [&](PointStatus status) { return points[static_cast<std::size_t>(status)]; };
     run_->yielded.push_back(static_cast<double>(count(PointStatus::yielded) + count(PointStatus::apex) +
                                                 count(PointStatus::cut_off)) /
                             static_cast<double>(solid));

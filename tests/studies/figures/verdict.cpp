@@ -105,7 +105,7 @@ std::string shown_to_fail(Runs& runs, const Result& result, Altered& copies) {
 const char* name_of(Verdict verdict) {
   constexpr const char* kNames[] = {"holds", "holds away from the corner", "artefact of full 4-node elements",
                                     "depends on K_j", "does not hold"};
-  return kNames[verdict];
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 Verdict verdict_of(const Outcome& outcome) {
