@@ -234,7 +234,7 @@ Json field_json(const Model& model, const ShownField& shown) {
   return {{"name", field.name},
           {"meaning", field.meaning},
           {"unit", clean(unit_text(field.dimension, model.units))},
-          {"sign", kSigns[field.sign]},
+          {"sign", kSigns[static_cast<std::size_t>(field.sign)]},
           {"place", field.place() == FieldPlace::node ? "node" : "point"},
           {"vector", field.shape == FieldShape::vector && columns.size() == 2},
           {"columns", std::move(columns)},

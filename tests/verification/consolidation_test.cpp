@@ -762,7 +762,7 @@ const std::vector<LawOfSoil>& laws_of_soil() {
 }
 
 long yielding_points(const WholeRun& run) {
-  return run.last().points[PointStatus::yielded];
+  return run.last().points[static_cast<std::size_t>(PointStatus::yielded)];
 }
 
 // A load that grows so slowly that no pressure is left is the drained load of quad8, of any law; one in no time is the

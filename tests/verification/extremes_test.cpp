@@ -95,7 +95,7 @@ TEST_P(PlasticLaw, MethodsAgree) {
   const WholeRun newton = compress(GetParam(), parameters, 50.0, 0.06, 30);
   ASSERT_TRUE(newton.completed()) << newton.failure;
   const double size = newton.last().internal.cwiseAbs().maxCoeff();
-  EXPECT_GT(newton.last().points[PointStatus::yielded], 0);
+  EXPECT_GT(newton.last().points[static_cast<std::size_t>(PointStatus::yielded)], 0);
   int iterations[4] = {};
   for (int method : {1, 2, 3}) {
     if (method == 2 && GetParam() == 4) continue;  // thousands of iterations: too long for a test
@@ -167,7 +167,8 @@ TEST(ZeroContact, RoundingIsNoOpening) {
       const WholeRun run = run_text(deck.text());
       ASSERT_TRUE(run.completed()) << run.failure;
       const long points = apart > 0.0 ? 4 : 0;
-      for (const Snapshot& at : run.increments) EXPECT_EQ(at.points[PointStatus::open], points);
+      for (const Snapshot& at : run.increments)
+        EXPECT_EQ(at.points[static_cast<std::size_t>(PointStatus::open)], points);
     }
 }
 

@@ -84,7 +84,9 @@ TEST_P(HyperbolicIncrements, IsotropicCompressionIsFirstLoading) {
       ASSERT_TRUE(runs.back().completed()) << runs.back().failure;
     }
     for (const WholeRun& run : runs) {
-      EXPECT_EQ(run.increments[static_cast<std::size_t>(increments) - 1].points[PointStatus::unloading], 0);
+      EXPECT_EQ(run.increments[static_cast<std::size_t>(increments) - 1]
+                    .points[static_cast<std::size_t>(PointStatus::unloading)],
+                0);
       for (std::size_t i = 0; i < run.increments.size(); ++i) {
         const Snapshot &one = run.increments[i], &other = runs.front().increments[i];
         EXPECT_LE((one.u - other.u).norm(), 1e-10 * other.u.norm()) << "increment " << i;

@@ -329,7 +329,7 @@ TEST(OpenJoint, ALoosePartIsTold) {
     stage.load(14, 0.0, -5.0);
     const test::WholeRun run = test::run_text(blocks.deck.text());
     ASSERT_TRUE(run.completed()) << run.failure;
-    EXPECT_EQ(run.last().points[PointStatus::open], 2);
+    EXPECT_EQ(run.last().points[static_cast<std::size_t>(PointStatus::open)], 2);
     EXPECT_TRUE(
         run.warns("increment 1: all interfaces around the part that contains node 11 (4 nodes: 11, 12, 13, 14) "
                   "are open: nothing holds it against a rigid translation in y"));

@@ -207,7 +207,7 @@ TEST(Stepping, ChangedLoadsAreTheLoadPathOfTwoStages) {
     SCOPED_TRACE(plastic_rows);
     const WholeRun stages = run_text(loaded_ground(plastic_rows, {{40.0, 4}, {30.0, 6}}));
     ASSERT_TRUE(stages.completed()) << stages.failure;
-    EXPECT_GT(stages.last().points[PointStatus::yielded], 0);
+    EXPECT_GT(stages.last().points[static_cast<std::size_t>(PointStatus::yielded)], 0);
     Model model = workbench().build(loaded_ground(plastic_rows, {{100.0, 10}}));
     Host host(model);
     for (int i = 0; i < 4; ++i) ASSERT_TRUE(host.advance());
