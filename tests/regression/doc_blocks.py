@@ -4,8 +4,11 @@
     doc_blocks.py SAGEFE SOURCE             README.md and the tutorials
     doc_blocks.py SAGEFE SOURCE --manual    the manual, whose decks are those of MANUAL below
     doc_blocks.py SAGEFE SOURCE PAGE ...
+        --python FOLDER   where the package sagefe of Python is; pages that need it are left out without
+        --prefix FOLDER   where sagefe is installed; pages that build against it are left out without, and no others are run
+        --quick           without commands that take many seconds under sanitizers
 
-Every line of a code block that begins with a command is run, in the order of the page
+A block whose first line is ```KIND NAME is written to the file NAME.  Every line of a code block that begins with a command is run, in the order of the page
 and in a folder of its own beside the tree's decks; it must end with exit code 0.  Lines below a command that begins
 with "$ " must be printed, in their order, numbers to 0.5 %; "..." stands for any lines, and at the end of a line for
 its rest.
@@ -19,10 +22,26 @@ import tempfile
 
 SAGEFE = pathlib.Path(sys.argv[1]).resolve()
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
-PAGES = [pathlib.Path(name).resolve() for name in sys.argv[3:] if name != "--manual"]
-COMMANDS = ("sagefe", "sed", "scripts/", "cmake", "ctest", "cp", "cd", "man", "export")
+WORDS = sys.argv[3:]
+
+
+def take(option):
+    """What follows an option, which is removed; None without it."""
+    if option not in WORDS:
+        return None
+    at = WORDS.index(option)
+    value = pathlib.Path(WORDS[at + 1]).resolve()
+    del WORDS[at:at + 2]
+    return value
+
+
+PYTHON, PREFIX = take("--python"), take("--prefix")
+PAGES = [pathlib.Path(name).resolve() for name in WORDS if not name.startswith("--")]
+COMMANDS = ("sagefe", "sed", "scripts/", "cmake", "ctest", "cp", "cd", "man", "export", "python3")
 # Commands that build or install: tests of their own run them (tests/install), or scripts/check_package.
-ELSEWHERE = ("scripts/", "cmake", "ctest", "man ", "export ")
+ELSEWHERE = ("scripts/", "ctest", "man ", "export ") if PREFIX else ("scripts/", "cmake", "ctest", "man ", "export ")
+NEED_PYTHON, NEED_PREFIX = {"python_sweep"}, {"own_law"}
+DEAR = ("sagefe bounds slope",) if "--quick" in WORDS else ()
 # Of a page of the manual: what it takes for granted, and words of its commands that stand for something.
 CHAPTER = "legacy_inputs/chapter7"
 MANUAL = {
@@ -67,20 +86,20 @@ def fail(page, line, *words):
 
 
 def blocks(text):
-    """(line of the first, lines) of each fenced or indented block."""
-    lines, begin, fenced, block = text.split("\n"), 0, False, []
+    """(line of the first, lines, name of its file) of each fenced or indented block."""
+    lines, begin, fenced, block, name = text.split("\n"), 0, False, [], ""
     for number, line in enumerate(lines + [""], 1):
         if line.startswith("```"):
             if fenced:
-                yield begin, block
-            fenced, begin, block = not fenced, number + 1, []
+                yield begin, block, name
+            fenced, begin, block, name = not fenced, number + 1, [], line.partition(" ")[2]
         elif fenced:
             block.append(line)
         elif line.startswith("    ") and (block or not lines[number - 2].strip()):
             begin = begin if block else number
             block.append(line[4:])
         elif block:
-            yield begin, block
+            yield begin, block, ""
             block = []
 
 
@@ -119,7 +138,8 @@ def check_output(page, line, wanted, output):
 
 def shell(command, folder):
     return subprocess.run(["bash", "-c", command], cwd=folder, capture_output=True, text=True,
-                          env={**os.environ, "PATH": f"{SAGEFE.parent}:{os.environ['PATH']}"})
+                          env={**os.environ, "PATH": f"{SAGEFE.parent}:{os.environ['PATH']}", "PYTHONPATH": str(PYTHON or ""),
+                               "PYTHONDONTWRITEBYTECODE": "1"})
 
 
 def whole_lines(block):
@@ -147,8 +167,10 @@ def run_page(page, folder):
         run = shell(command, folder)
         if run.returncode != 0:
             fail(page, 1, f"exit code {run.returncode} of {command}\n{run.stdout}{run.stderr}")
-    for begin, block in blocks(page.read_text()):
-        if not is_command(block[0]):
+    for begin, block, name in blocks(page.read_text()):
+        if name and page.parent.name == "tutorial":
+            (folder / name).write_text("\n".join(block) + "\n")
+        if not block or not is_command(block[0]):
             continue
         for offset, line in whole_lines(block):
             if not is_command(line):
@@ -158,7 +180,14 @@ def run_page(page, folder):
                 command = re.sub(rf"\b{word}\b", meaning, command)
             # What stands behind a gap in the manual explains the command.
             command = re.split(r" {3,}(?=#|[a-z]+ (?:and|against) )", command)[0].rstrip()
-            if command.startswith(ELSEWHERE) or is_left_out(command):
+            if command.startswith(ELSEWHERE + DEAR) or is_left_out(command):
+                continue
+            if PREFIX:
+                command = command.replace("-DCMAKE_PREFIX_PATH=/usr", f"-DCMAKE_PREFIX_PATH={PREFIX}")
+            if command.startswith("python3 "):
+                command = sys.executable + command.removeprefix("python3")
+            if command.startswith("cd "):
+                folder = folder / command[3:]
                 continue
             run = shell(command, folder)
             count += 1
@@ -176,9 +205,12 @@ def run_page(page, folder):
 
 manual = [SOURCE / f"docs/manual/{name}.md" for name in MANUAL] if "--manual" in sys.argv else []
 for page in manual or PAGES or [SOURCE / "README.md", *sorted((SOURCE / "docs/tutorial").glob("*.md"))]:
+    if (page.stem in NEED_PYTHON and not PYTHON) or (page.stem in NEED_PREFIX) != (PREFIX is not None):
+        continue
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         (folder / "legacy_inputs").symlink_to(SOURCE / "legacy_inputs")
+        (folder / "examples").symlink_to(SOURCE / "docs/examples")
         if run_page(page, folder) == 0:
             fail(page, 1, "no command was found")
 sys.exit(1 if failed else 0)
