@@ -8,6 +8,9 @@ import {View} from "./view.js";
 
 const data = JSON.parse(document.getElementById("data").textContent);
 
+// A lock-off adds the law of its stage as another material of the same number.
+const first_of_its_number = (material, i, all) => all.findIndex((other) => other.number === material.number) === i;
+
 class Page {
   constructor() {
     this.all = data.runs.map((json, i) => new Run(json, i));
@@ -186,7 +189,7 @@ class Page {
       table(["number", "name", "element", "elements", "points", "material"], run.groups.map((g) => [g.number, g.name, g.element, g.elements, g.elements * g.points,
         `${run.json.materials[g.material].number} ${run.json.materials[g.material].name}`].map(String)), {class: "list"}),
       h("h3", {}, "Materials"),
-      h("div", {class: "materials"}, run.json.materials.map((m) => h("details", {open: true}, h("summary", {}, `${m.number} ${m.name}: ${m.law}`),
+      h("div", {class: "materials"}, run.json.materials.filter(first_of_its_number).map((m) => h("details", {open: true}, h("summary", {}, `${m.number} ${m.name}: ${m.law}`),
         table(["parameter", "value", "unit", "meaning"], [...m.parameters.map((p) => [p.name, text_of(p.value, 8), p.unit, p.meaning]),
           ...(m.unit_weight ? [["unit_weight", text_of(m.unit_weight, 8), m.weight_unit, m.weight_unit ? "unit weight" : "weight, as the listing describes it"]] : [])], {class: "list"})))),
       h("h3", {}, "Stages, loads and water"),
@@ -371,7 +374,7 @@ class TablePage {
     for (const [row, column, text] of own.words) words.set(row * own.columns.length + column, text);
     const rows = Array.from({length: shown}, (_, r) => own.columns.map((c, k) => {
       const word = words.get(r * own.columns.length + k);
-      return word !== undefined ? (/^[^:?#\s]+\.html$/.test(word) ? h("a", {href: word}, word) : word) : text_of(c.values[r], 8);
+      return word !== undefined ? ((c.name === "page" ? /^[^:?#]+\.html$/ : /^[^:?#\s]+\.html$/).test(word) ? h("a", {href: encodeURI(word)}, c.name === "page" ? "page" : word) : word) : text_of(c.values[r], 8);
     }));
     document.getElementById("page").replaceChildren(
       h("header", {}, h("h1", {}, packed.title || data.name), h("nav", {}, button("Dark or light", "change between the dark and the light look", () => Page.prototype.change_look.call(this)), button("Print", "print the page, or save it as PDF", () => window.print()))),

@@ -108,13 +108,26 @@ export class Run {
   }
   values_of_nodes(state, choice) {
     const n = this.components(choice.field), parts = [];
-    for (let k = 0; k < n; ++k) parts.push(this.at_nodes(state, choice.field, k));
+    for (let k = 0; k < n; ++k) parts.push(this.at_nodes(state, choice.field, k)?.slice());
     if (!parts[0]) return this.groups.map(() => null);
     return this.groups.map((group) => {
       if (!group.area || !this.active(state, group)) return null;
+      for (const part of parts) this.fill_between_corners(group, part);
       const values = this.on_lattice(group, parts, n, group.connect, choice.of);
       return values.some(Number.isFinite) ? values : null;
     });
+  }
+  // The excess pressure of pore water is linear between the corners, which alone have it.
+  fill_between_corners(group, list) {
+    const corners = {6: 3, 8: 4, 9: 4}[group.nodes];
+    if (!corners) return;
+    for (let e = 0; e < group.elements; ++e)
+      for (let i = corners; i < group.nodes; ++i) {
+        const node = group.node(e, i), side = i - corners;
+        if (!Number.isNaN(list[node])) continue;
+        const around = side < corners ? [side, (side + 1) % corners] : [...Array(corners).keys()];
+        list[node] = around.reduce((sum, c) => sum + list[group.node(e, c)], 0) / around.length;
+      }
   }
   // Means of elements, averaged at nodes over the elements of one material: as sagefe's pictures are drawn.
   values_of_points(state, choice) {
