@@ -11,6 +11,8 @@ sage_install(sagefe RUNTIME ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY legacy_inputs DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe PATTERN smith_griffiths EXCLUDE PATTERN quad4m EXCLUDE)
 install(FILES LICENSE NOTICE CITATION.cff README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/sagefe)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/sagefe)
+# The same as a site, where scripts/package has built it.
+install(DIRECTORY ${PROJECT_BINARY_DIR}/site/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/sagefe/html OPTIONAL)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
 file(READ ${PROJECT_SOURCE_DIR}/NOTICE notice)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright CONTENT "@license@\n\n@notice@" @ONLY)

@@ -68,7 +68,8 @@ class MyClayLaw final : public SolidLaw {
     out.sigma -= (1.0 - r) * s;
     const Vector4 mean(1.0, 1.0, 1.0, 0.0);
     const Matrix4 volume = moduli_.K * mean * mean.transpose();
-    out.D = volume + r * (elastic_ - volume) - (G / (j * j)) * (G / (G + hardening_) - 1.0 + r) * s * s.transpose();
+    out.D =
+        volume + r * (elastic_ - volume) - (G / (j * j)) * (G / (G + hardening_) - 1.0 + r) * s * s.transpose();
     out.h1[0] += dg;
     out.status = PointStatus::yielded;
     return Outcome::ok;
@@ -103,4 +104,5 @@ MaterialEntry entry() {
 
 }  // namespace
 
-SAGE_PLUGIN("my_clay", "0.1", "nobody yet", [](Catalogue& catalogue) { catalogue.materials.add(1000, entry()); })
+SAGE_PLUGIN("my_clay", "0.1", "nobody yet",
+            [](Catalogue& catalogue) { catalogue.materials.add(1000, entry()); })
