@@ -22,1493 +22,1397 @@ constexpr const char* kSections[] = {
 constexpr MessageEntry kMessages[] = {
     // S1: files, cards and layouts.
     {"S101", "a file can't be read",
-     "The file does not exist under this name, is a folder, or may not be read by this user. Names are "
-     "taken from the folder in which the command is given, not from the folder of the deck.",
-     "Check name and folder (ls) and the rights of the file; the full path works from everywhere."},
+     "The file does not exist under this name, is a folder, or this user has no right to read it. A relative "
+     "name starts at the folder in which the command is given, not at the folder of the deck.",
+     "Check the name and the rights of the file with ls -l. A full path works from every folder."},
     {"S102", "a file is too large",
-     "A deck may have 2 GiB, a layout 16 MiB; a pipe or a device that never ends is cut off at the same "
-     "size. A deck of 5 million nodes is still far below that.",
-     "Look whether the name is that of a result, an archive or a device. A text that has grown by "
-     "mistake (one card repeated without end) is best written again."},
+     "A deck may have up to 2 GiB and a layout up to 16 MiB. sagefe stops reading a pipe or a device at the "
+     "same size. A deck of 5 million nodes is far below that limit.",
+     "Check that the name is not that of a result, an archive or a device. If a program wrote the deck, look "
+     "for a card that it repeated without end."},
     {"S103", "a file is empty",
-     "The file has no card at all: a copy that failed, a full disk at the time it was written, or an "
-     "editor that has not saved yet.",
-     "Copy or write the file again; ls -l shows its size."},
+     "The file has no card. A copy may have failed, the disk may have been full when the file was written, or "
+     "the editor has not saved it yet.",
+     "Copy or write the file again. ls -l shows its size."},
     {"S104", "a file is no text of cards",
-     "A deck is plain text, one card a line. This file is binary, UTF-16 text (as some Windows programs "
-     "write), or a document of a word processor, a spreadsheet or an archive.",
-     "Save it as plain text (ASCII or UTF-8) from the program that made it; unpack an archive first. A "
-     "result file (.h5) belongs to sagefe plot, a mesh (.msh) to sagefe convert."},
+     "A deck is plain text with one card on each line. This file is binary, is UTF-16 text (as some Windows "
+     "programs write it), or is a document of a word processor, a spreadsheet or an archive.",
+     "Save the deck as plain text (ASCII or UTF-8) from the program that made it, and unpack an archive first. "
+     "sagefe plot reads result files (.h5), and sagefe convert reads meshes (.msh)."},
     {"S105", "no layout fits the deck",
-     "Every layout that is built in was tried: none finds its own marks in the deck, and the first cards "
-     "are not those of sage1. The deck is of a program, or of a version of one, that is not known here.",
-     "Name the layout if you know it (--layout NAME or a file). If nobody knows it, sagefe layout guess "
-     "DECK writes a first layout, and docs/manual/own_layout.md says how to finish it."},
+     "sagefe tried every built-in layout. None finds its marks in the deck, and the first cards are not those "
+     "of sage1. The deck belongs to a program, or to a version of one, that sagefe does not know.",
+     "If you know the layout, name it with --layout NAME or --layout FILE. Otherwise sagefe layout guess DECK "
+     "writes a first layout; docs/manual/own_layout.md explains how to complete it."},
     {"S106", "a deck of a program with another purpose",
-     "Its cards are those of a program for heat, vibration, consolidation, plates or three dimensions, which "
-     "this program does not compute.",
-     "If the guess is wrong, name the layout with --layout. Otherwise only its mesh can be used: export "
-     "it to Gmsh (.msh) and take it from there with sagefe convert."},
+     "The cards are those of a program for problems that sagefe does not solve, such as heat, vibration, "
+     "plates or three dimensions.",
+     "If sagefe guessed wrongly, name the layout with --layout. Otherwise only the mesh is of use: export it "
+     "to Gmsh (.msh) and read it with sagefe convert."},
     {"S107", "another layout reads the deck without mistakes",
-     "The deck has mistakes under the layout it was read with, and none under another one: it was "
-     "probably written for that other program.",
-     "Run it again with --layout and the name in the message."},
+     "The deck has mistakes under the layout that was used, and none under another one. It was probably "
+     "written for that other program.",
+     "Run the deck again with --layout and the name in the message."},
     {"S108", "the deck was read with the standard layout",
-     "The deck shows the marks of no other program, so it was read as sage1, and then had mistakes. They "
-     "may be mistakes of the deck or mean that it is of another layout.",
-     "If the deck was made for sage1, mend the cards that the other messages show. Otherwise name its "
+     "The deck shows the marks of no other program, so sagefe read it as sage1 and then found mistakes. Either "
+     "the deck has mistakes, or it has another layout.",
+     "If the deck was made for sage1, correct the cards that the other messages show. Otherwise name its "
      "layout with --layout."},
     {"S109", "more messages of the same kind",
-     "Only the first messages of a kind are shown: one wrong count or one shifted column often causes "
+     "sagefe shows only the first messages of a kind. One wrong count or one shifted column often causes "
      "hundreds of them.",
-     "Mend the first one shown and check again; the rest often goes with it."},
+     "Correct the first one and check the deck again. The others often disappear with it."},
     {"S110", "a card is missing",
-     "The layout expects a card here, and the deck has another one, its closing card, or nothing more. "
-     "Most often a count on the control card, or in front of a list, is larger than the number of cards "
-     "that follow; or a card was lost when the deck was edited.",
-     "Compare the count that the message names with the cards (sagefe echo DECK shows each card as it "
-     "was read), then correct the count or add the card."},
+     "The layout expects a card here. The deck has another card, its closing card, or nothing more. Most often "
+     "a count on the control card, or before a list, is larger than the number of cards that follow. A card "
+     "may also have been lost when the deck was edited.",
+     "Compare the count that the message names with the cards; sagefe echo DECK shows each card as it was "
+     "read. Then correct the count or add the card."},
     {"S111", "a count and its cards do not agree",
-     "A card reads like one of another kind: the count that announces this kind is too large or too "
+     "A card reads like one of another kind. Either the count that announces this kind is too large or too "
      "small, or a card has too few or too many lines.",
-     "Count the cards of the kind in the message and correct the count it names. Where that count is "
-     "right, one further up is wrong: mend the first message first."},
+     "Count the cards of the kind in the message and correct the count that it names. If that count is right, "
+     "an earlier count is wrong: correct the first message first."},
     {"S112", "a card has no place here",
-     "The card's name is known, but not at this place of the deck, or the deck was complete before it.",
-     "Move the card to the place that docs/manual/deck_format.md (or the layout) gives it, or take it "
-     "out."},
+     "sagefe knows the name of the card, but the card is not allowed at this point of the deck. Or the deck "
+     "was already complete before it.",
+     "Move the card to the position that docs/manual/deck_format.md (or the layout) gives, or remove it."},
     {"S113", "lines behind the end of the deck",
-     "All cards that the counts announce were read, and more lines follow. They are ignored. Notes of "
-     "the deck's author are harmless; cards there are not computed.",
-     "If they are cards, a count above is too small. If they are notes, nothing is to be done."},
+     "sagefe read all cards that the counts announce, and ignored the lines that follow. Notes by the author "
+     "of the deck are harmless there. Cards there have no effect.",
+     "If the lines are cards, a count above is too small. If they are notes, nothing needs to be done."},
     {"S114", "the last card is not marked as the last",
-     "The layout closes a list by a mark on its last card (such as a negative number); here the list "
-     "ended without it.",
-     "Add the mark to the last card of the list, or the cards that are missing behind it."},
+     "In this layout the last card of a list carries a mark, such as a negative number. The list ended without "
+     "it.",
+     "Add the mark to the last card of the list, or add the cards that are missing behind it."},
     {"S115", "a value is missing",
-     "A field that must be given is blank or the line ends before it. On a fixed-format card a value "
-     "that stands a few columns to the left or right is in another field.",
-     "Write the value into the columns that the message shows under its ruler; sagefe echo DECK shows "
-     "what every field holds."},
-    {"S116", "a card does not read what it must",
-     "The layout wants a fixed word or number here, by which a card is told from others. Something else "
-     "means that a card is missing, stands twice, or that the deck is of another layout.",
-     "Look at the cards before this one first: a wrong count shifts all that follow. Then correct the "
-     "word."},
+     "A required field is blank, or the line ends before it. On a fixed-format card, a value that is a few "
+     "columns too far left or right lies in another field.",
+     "Write the value into the columns that the message shows under its ruler. sagefe echo DECK shows what "
+     "every field holds."},
+    {"S116", "a card lacks its fixed word or number",
+     "The layout requires a fixed word or number here, which distinguishes this card from others. With "
+     "anything else there, a card is missing, a card is repeated, or the deck has another layout.",
+     "Check the cards before this one first, since a wrong count shifts all cards that follow. Then correct "
+     "the word."},
     {"S117", "a code is unknown",
-     "The field holds a code number or word that the layout does not know: a slip, or an option of the "
-     "program the deck was written for that has no counterpart.",
-     "Take one of the codes that the message lists; for a code of a program of your own add it to the "
-     "map of the layout."},
+     "The field holds a code number or word that the layout does not have. It is a typing error, or an option "
+     "of the original program without a counterpart here.",
+     "Use one of the codes that the message lists. For a code of your own program, add it to the map of the "
+     "layout."},
     {"S118", "a value is not allowed",
-     "The field may only hold certain values, or values between limits, and this one is outside. A "
-     "decimal point in the wrong place or a value in a neighbour's columns are the usual reasons.",
-     "Correct the value; the message says what is allowed. With a unit in mind: the deck's units are "
-     "those of its unit card."},
+     "The field accepts only certain values, or values between limits. The usual reasons are a misplaced "
+     "decimal point and a value in the columns of its neighbour.",
+     "Correct the value; the message gives the allowed ones. Values have the units of the deck's unit card."},
     {"S119", "numbers that nothing reads",
-     "A list-directed READ takes as many values as its list is long; more stand on the line. A count "
-     "before it is too small, a value too many stands before it, or the deck is of another program. "
-     "Values that should be used are then lost.",
-     "Correct the count, or the values. Where numbers are left over on purpose (as remarks) end the "
-     "values by a slash (/)."},
+     "A list-directed READ reads as many values as its list has, and the line has more of them. Either a count "
+     "before it is too small, or the line has a value too many, or the deck belongs to another program. In the "
+     "first and last case values are lost that should be used.",
+     "Correct the count or the values. If numbers are left over on purpose, as remarks, end the values with a "
+     "slash (/)."},
     {"S120", "a field is no number",
-     "The columns of a number hold a character that belongs to none: a letter O for a zero, a second "
-     "point, a comma, or part of the neighbouring field. Tabs move everything behind them.",
-     "The carets under the card show the columns: correct the value or move it into its columns. Replace "
-     "tabs by blanks."},
+     "The columns of a number hold a character that no number has: a letter O in place of a zero, a second "
+     "point, a comma, or a part of the neighbouring field. A tab moves everything behind it.",
+     "The carets under the card show the columns. Correct the value or move it into its columns. Replace tabs "
+     "by blanks."},
     {"S121", "a number is not finite",
-     "NaN, Inf or an exponent beyond 1e308 was read. Such numbers come from a spreadsheet or a program "
-     "that wrote the deck after a division by zero.",
+     "The field holds NaN, Inf or a number beyond 1e308. Such numbers come from a spreadsheet or a program "
+     "that divided by zero.",
      "Correct the value where the deck was made."},
     {"S122", "a blank inside a number",
-     "A blank separates the digits of one number. Fortran skips the blank or reads it as zero, depending "
-     "on the layout: 1 5 is 15 or 105. Mostly the card is shifted by a column, and one number spreads "
+     "A blank separates the digits of one number. Depending on the layout, Fortran skips the blank or reads it "
+     "as zero: 1 5 becomes 15 or 105. Most often the card is shifted by one column, so that one number spreads "
      "over two fields.",
-     "Move the values into their columns. If the number is right as it is, write it without a blank."},
+     "Move the values into their columns. If the number is right as it was read, write it without the blank."},
     {"S123", "a comma ends a field",
-     "In a fixed-format card a comma ends the field early, and the next field starts right behind it, "
-     "not at its columns.",
+     "On a fixed-format card a comma ends the field early. The next field then starts right behind the comma, "
+     "not at its own columns.",
      "Remove the comma, or separate all values of the card by commas."},
     {"S124", "a number in an unusual form",
-     "The exponent letter Q is read by some compilers only, and a lone sign or point reads as 0. The message "
-     "gives the way in which it was read.",
-     "Write the number with E or D, or a 0 where zero is meant."},
+     "Only some compilers accept the exponent letter Q, and a lone sign or point reads as 0. The message gives "
+     "the value that was read.",
+     "Write the number with E or D, or write 0 if zero is meant."},
     {"S125", "blanks count as zeros",
-     "Under this layout blanks inside a numeric field are zeros (Fortran's BZ): 15 with two blanks "
-     "behind it in a field of four is 1500. Editors that cut off blanks at the end of a line change such "
-     "decks.",
-     "Right-align integers in their fields and give real numbers a point."},
+     "In this layout blanks inside a numeric field are zeros (Fortran's BZ). For example, 15 with two blanks "
+     "behind it in a field of four reads as 1500. An editor that removes blanks at the end of a line changes "
+     "such a deck.",
+     "Align integers at the right end of their fields and write real numbers with a point."},
     {"S126", "decimals by the format",
-     "A number without a point takes its last digits as decimals, as F10.3 says: 12345 reads as 12.345. "
-     "In old decks that is meant; in new ones seldom.",
-     "Write the point. If the number is right as it was read, nothing is to be done."},
+     "In a field such as F10.3 the last three digits of a number without a point are decimals: 12345 reads as "
+     "12.345. Old decks often rely on this rule; new ones rarely do.",
+     "Write the decimal point. If the number is right as it was read, nothing needs to be done."},
     {"S127", "a blank field reads as its default",
-     "The field was left blank and has a value that is taken then. Other cards of the kind give one, or "
-     "the layout wants it told.",
+     "The field is blank, so sagefe uses its default. It reports this if other cards of the same kind have a "
+     "value there, or if the layout requests the note.",
      "If the default is not what you mean, write the value."},
-    {"S128", "a value runs across a border of fields",
-     "Digits stand on both sides of a border between fields, or behind the last one: the card is "
-     "probably shifted by a column, and what was read is a part of the number that was meant.",
-     "Move the values into their columns; sagefe echo DECK shows ruler and fields."},
+    {"S128", "a value crosses the boundary between two fields",
+     "There are digits on both sides of the boundary between two fields, or behind the last field. The card is "
+     "probably shifted by some columns, and sagefe read only a part of the intended number.",
+     "Move the values into their columns. sagefe echo DECK shows the fields under a ruler."},
     {"S129", "characters beyond the last field are ignored",
-     "Text behind the last field of a card, or beyond the last column of the layout, is not read. "
-     "Remarks there are usual in old decks.",
-     "Nothing, where it is a remark. If it is a value, move it into its columns."},
+     "sagefe does not read text behind the last field of a card or beyond the last column of the layout. Old "
+     "decks often have remarks there.",
+     "If the text is a remark, nothing needs to be done. If it is a value, move it into its columns."},
     {"S130", "a sequence number is read as data",
-     "In columns 73-80 old decks carry sequence numbers of punched cards. On this card the fields reach "
-     "into those columns, so that the number is taken for data.",
-     "Remove the sequence numbers, or set sequence_columns of the layout to those the deck uses."},
+     "Old decks have the sequence numbers of punched cards in columns 73-80. The fields of this card extend "
+     "into those columns, so that the sequence number is read as data.",
+     "Remove the sequence numbers, or set sequence_columns of the layout to the columns that the deck uses."},
     {"S131", "a computed value fails",
-     "The layout computes a value from others by an expression, and the result is no number (a division "
-     "by zero, a root of a negative number) or no integer where one is needed. The cards that go into it "
-     "hold values nobody thought of when the layout was written.",
-     "Look at the values of the fields in the expression (sagefe layout check LAYOUT DECK shows them), "
-     "then correct the card or the expression."},
+     "The layout computes a value from others by an expression. The result is not a number (a division by "
+     "zero, a root of a negative number), or it must be an integer and is not. The author of the layout did "
+     "not foresee such values on the cards.",
+     "Check the values of the fields in the expression; sagefe layout check LAYOUT DECK shows them. Then "
+     "correct the card or the expression."},
     {"S132", "reading stopped here",
-     "After a mistake by which all that follows would be misread, the rest of the deck is not looked at, "
-     "in order not to print a page of messages that mean nothing.",
-     "Mend the mistake reported before, then check again."},
+     "After this mistake all following cards would be misread. sagefe stops here, because every further "
+     "message would be meaningless.",
+     "Correct the mistake that was reported before, then check the deck again."},
     {"S133", "a name or title runs into the next field",
-     "The text is longer than its field, and a number field behind it reads what runs over.",
-     "Shorten the text so that it ends with its field."},
+     "The text is longer than its field. The numeric field behind it reads the rest of the text.",
+     "Shorten the text so that it ends within its field."},
     {"S134", "numbers behind the last field",
-     "The card has fewer fields than numbers: the last ones are not read. A value too many stands on the card, "
-     "it "
-     "is shifted, or it is of another program's layout.",
-     "Take the numbers out or move them into their fields. A remark that is meant there begins with a word."},
+     "The card has more numbers than fields, and the last numbers are not read. There is a value too many, the "
+     "card is shifted, or it belongs to the layout of another program.",
+     "Remove the numbers or move them into their fields. Begin a remark with a word."},
     {"S140", "there is no layout of this name",
-     "--layout takes the name of a layout that is built in or the path of a layout file. Neither was "
-     "found.",
-     "Take a name from the list in the message, or check the path."},
+     "--layout accepts the name of a built-in layout or the path of a layout file. sagefe found neither.",
+     "Use a name from the list in the message, or check the path."},
     {"S141", "a layout file is no TOML",
-     "The file breaks the rules of TOML: a bracket or a quote is not closed, a key stands twice, or text "
-     "is not in quotes.",
-     "Mend the line in the message. FORMATs and expressions are texts in quotes; "
+     "The file breaks the rules of TOML: a bracket or quote is not closed, a key occurs twice, or a text is "
+     "not in quotes.",
+     "Correct the line in the message. Write FORMATs and expressions as texts in quotes; "
      "docs/manual/own_layout.md shows every kind of line."},
     {"S142", "a FORMAT of a layout is wrong",
-     "The FORMAT of a card does not follow Fortran's rules, or has other fields than the card lists: "
-     "each name in fields needs one edit descriptor of its kind (I for integer, F or E for real, A for "
-     "text).",
-     "Correct the FORMAT at the character given, or the list of fields. Repetition such as 8F10.0 counts "
-     "as eight fields."},
+     "The FORMAT of a card breaks the rules of Fortran, or its fields differ from those that the card lists. "
+     "Each name in fields needs one edit descriptor of its kind: I for an integer, F or E for a real number, A "
+     "for text.",
+     "Correct the FORMAT at the character in the message, or correct the list of fields. A repetition such as "
+     "8F10.0 counts as eight fields."},
     {"S143", "an entry of a layout is wrong",
-     "A key of the layout is unknown, missing, or holds a value of another kind, or two entries "
-     "contradict each other. An unknown key is rejected since a typing error would otherwise change the "
-     "reading without a word.",
-     "Correct the entry on that line; docs/manual/own_layout.md lists all keys with what they take."},
+     "A key of the layout is unknown, is missing, or has a value of another kind; or two entries contradict "
+     "each other. sagefe rejects unknown keys, because a typing error would otherwise change how the deck is "
+     "read.",
+     "Correct the entry on that line. docs/manual/own_layout.md lists all keys with their values."},
     {"S146", "an expression of a layout is wrong",
-     "A count, a condition or a value is an expression of fields of cards that stand before it. This one "
-     "can't be read, uses a name that no earlier card has, or gives a text where a number is needed.",
-     "Correct the expression: CARD.FIELD for values, the functions of docs/manual/own_layout.md, texts "
-     "in single quotes."},
-    {"S147", "a name of a layout means nothing to the model",
-     "Cards and fields reach the model by their names. This name is used by nothing, or a card or field "
-     "that every model needs is missing: values would be read and then lost.",
-     "Correct the name (the message gives near ones), rename with as = \"...\", or mark what is not "
-     "needed: ignored = true."},
+     "A count, a condition or a value is an expression of fields of earlier cards. This one can't be read, "
+     "uses a name that no earlier card has, or gives a text where a number is needed.",
+     "Correct the expression. Write values as CARD.FIELD, texts in single quotes, and use the functions of "
+     "docs/manual/own_layout.md."},
+    {"S147", "a name of a layout has no meaning for the model",
+     "Cards and fields reach the model by their names. Either nothing uses this name, so that its values would "
+     "be lost, or a card or field that every model needs is missing.",
+     "Correct the name (the message proposes similar ones), or rename it with as = \"...\". Mark a card or "
+     "field that is not needed with ignored = true."},
     {"S148", "a draft of a layout can't make a model",
-     "sagefe layout guess writes drafts, in which names and codes are guesses. A draft can show a deck, "
-     "but nothing may be computed from guesses.",
-     "Finish the layout (docs/manual/layout_guess.md), then take out its line draft = true."},
-    {"S149", "deck and layout are exchanged", "sagefe layout check takes the layout first, then the deck.",
+     "sagefe layout guess writes drafts, whose names and codes are guesses. A draft can display a deck, but "
+     "sagefe computes nothing from guesses.",
+     "Complete the layout (docs/manual/layout_guess.md), then remove its line draft = true."},
+    {"S149", "deck and layout are exchanged", "sagefe layout check expects the layout first, then the deck.",
      "Exchange the two names."},
-
     {"S150", "a model file is no TOML",
-     "The text breaks the rules of TOML at this place: a quote or bracket that is not closed, a key that "
-     "stands twice, "
-     "a value that TOML has not.",
-     "Correct the line; https://toml.io shows the format on one page, docs/manual/model_file.md what stands in "
-     "it."},
-    {"S151", "a model file has a key that means nothing",
-     "The table has no key of this name. Keys are the names of the fields of a card, and for a material the "
-     "parameters "
-     "of its law.",
-     "Take one of the keys that the message lists; docs/manual/model_file.md says what each is for."},
+     "The text breaks the rules of TOML at this position: a quote or bracket is not closed, a key occurs "
+     "twice, or TOML has no value of this form.",
+     "Correct the line. https://toml.io explains the format on one page; docs/manual/model_file.md lists what "
+     "a model file contains."},
+    {"S151", "a model file has a key without a meaning",
+     "The table has no key of this name. Its keys are the names of the fields of a card; for a material they "
+     "are also the parameters of its law.",
+     "Use one of the keys that the message lists. docs/manual/model_file.md explains each."},
     {"S152", "a value of a model file is of another kind",
-     "A number, a text in quotes, true or false, a list in brackets or a table is wanted here, and something "
-     "else "
-     "stands there.",
-     "Write what the message asks for; docs/manual/model_file.md has an example of every kind."},
-    {"S153", "a model file names something that there is not",
-     "The law, element, formulation, solver, material, group or choice of this name does not exist, or several "
-     "have "
-     "it.",
-     "Take one of the names in the message; `sagefe list` shows laws, elements and solvers."},
+     "The key needs a value of one kind: a number, a text in quotes, true or false, a list in brackets, or a "
+     "table. The file gives a value of another kind.",
+     "Write the kind of value that the message names. docs/manual/model_file.md has an example of every kind."},
+    {"S153", "a name in a model file is unknown",
+     "No law, element, formulation, solver, material, group or choice has this name, or several have it.",
+     "Use one of the names in the message. sagefe list shows laws, elements and solvers."},
     {"S154", "a unit of a model file does not fit",
-     "A number bears a unit that the program does not know, or that measures something else than the value.",
-     "Write a unit of the same kind, such as \"50 MPa\" for a stress, or the number alone in the model's own "
-     "unit."},
+     "sagefe does not know the unit of the number, or the unit measures another quantity than the value.",
+     "Write a unit of the right kind, such as \"50 MPa\" for a stress. A number without a unit is in the "
+     "model's own units."},
     {"S155", "a model file lacks something",
-     "A table lacks a key without which it has no meaning, or the model a table.",
-     "Add the key or table that the message names; docs/manual/model_file.md."},
+     "A table lacks a required key, or the model lacks a required table.",
+     "Add the key or table that the message names; docs/manual/model_file.md explains it."},
+
     // S2: what the cards say together, until there is a model.
     {"S201", "a node is not defined",
-     "A card names a node that no node card, line or block makes. With generated nodes a step that is "
-     "off by one leaves gaps.",
-     "Correct the number, or the generation that should make the node; sagefe echo DECK shows how each card "
-     "was "
-     "read."},
+     "A card names a node that no node card, line or block makes. With generated nodes, a step that is wrong "
+     "by one leaves gaps.",
+     "Correct the number, or correct the generation that should make the node. sagefe echo DECK shows how each "
+     "card was read."},
     {"S202", "an element is not defined",
      "A card (pressure, removal, strength) names an element that no element card or block makes.",
-     "Correct the number or the block; element numbers of a block run along its rows."},
+     "Correct the number or the block. The element numbers of a block run along its rows."},
     {"S203", "a group is not defined",
-     "A card names a group that no group card defines. Lists of groups that a stage activates or removes, and "
-     "initial stress cards, hold group numbers, not element numbers.",
+     "A card names a group that no group card defines. The lists of a stage (activate, remove) and the initial "
+     "stress cards need group numbers, not element numbers.",
      "Correct the number or add the group card."},
     {"S204", "a material is not defined", "A group names a material number that no material card has.",
      "Correct the material number on the group card, or add the material."},
     {"S205", "a number is given twice",
-     "Two nodes, elements, groups or materials bear the same number. The second would replace the first "
-     "without a word; often a block and a single card overlap.",
-     "Number one of them anew, or remove the card that is too many."},
+     "Two nodes, elements, groups or materials have the same number, so the second would silently replace the "
+     "first. Often a block and a single card overlap.",
+     "Give one of them another number, or remove the superfluous card."},
     {"S206", "a number is out of range",
-     "Nodes, elements, groups and materials are numbered from 1 on; a zero or negative number is a blank "
-     "field or a shifted card, and a block must not run beyond the largest number.",
+     "Nodes, elements, groups and materials have numbers from 1 upwards. A zero or negative number comes from "
+     "a blank field or a shifted card. A block must not go beyond the largest number.",
      "Give a number of 1 or more."},
     {"S207", "a value must not be negative",
-     "Counts, steps, spacing ratios, areas and limits are zero or more; zero or blank often means the "
+     "Counts, steps, spacing ratios, areas and limits are zero or positive. Zero or blank often means the "
      "default.",
-     "Correct the sign or the columns. Where a direction is meant, look up the field that says it in "
+     "Correct the sign or the columns. To state a direction, use the field for it: "
      "docs/manual/deck_format.md."},
     {"S208", "a value is too large to compute with",
-     "Numbers beyond 1e100 overflow when they are squared. No length, force or stiffness of soil comes "
-     "near it: such a number marks a field without value in some programs.",
-     "Correct the value; for \"very stiff\" take a modulus 1e3 to 1e6 times that of the neighbours."},
+     "Numbers beyond 1e100 overflow when they are squared. No length, force or stiffness of soil comes near "
+     "that. Some programs use such a number as a mark for \"no value\".",
+     "Correct the value. For \"very stiff\" use a modulus 1e3 to 1e6 times that of the neighbours."},
     {"S209", "a range of numbers does not work out",
-     "First, last and step must lead from the first to the last number exactly: 1 to 10 in steps of 3 "
-     "meets 10, in steps of 4 it does not.",
-     "Correct last or step; a blank last means the first number only."},
+     "First, last and step must lead exactly from the first to the last number. From 1, steps of 3 reach 10; "
+     "steps of 4 do not.",
+     "Correct the last number or the step. A blank last number means the first number only."},
     {"S210", "a code on a card is unknown",
-     "A number that chooses among alternatives (geometry, coordinate system, support, report kind, "
-     "method, formulation) is none of them.",
-     "Take one of the codes in the message; docs/manual/deck_format.md says what each means."},
+     "A code chooses among alternatives, such as geometry, coordinate system, support, kind of report, method "
+     "or formulation. The number on the card is none of them.",
+     "Use one of the codes in the message; docs/manual/deck_format.md explains each."},
     {"S211", "an element type is unknown",
-     "The group card asks for an element code that this program does not have.",
-     "sagefe list elements shows codes and formulations. Elements of your own come with a program or "
-     "plug-in of your own."},
-    {"S212", "a material law is unknown",
-     "The material card asks for a law code that this program does not have.",
+     "The group card has an element code that this program does not have.",
+     "sagefe list elements shows codes and formulations. Your own elements need your own program or a "
+     "plug-in."},
+    {"S212", "a material law is unknown", "The material card has a law code that this program does not have.",
      "sagefe list materials shows codes and parameters."},
     {"S213", "a solver is unknown",
-     "The control card or --solver asks for a solver that is not there; some need libraries that this "
-     "build lacks.",
-     "0 (automatic) always works. sagefe list solvers shows the rest."},
+     "The control card or --solver names a solver that does not exist in this build. Some solvers need "
+     "libraries.",
+     "Solver 0 (automatic) always works. sagefe list solvers shows the others."},
     {"S214", "the deck lacks something that every model needs",
-     "There are no nodes, elements, groups or stages: a count on the control card is zero or blank, or "
-     "their cards stand under another name.",
-     "Give the cards and their counts. sagefe echo DECK shows how each card was taken."},
+     "The deck has no nodes, elements, groups or stages. A count on the control card is zero or blank, or the "
+     "cards have another name.",
+     "Add the cards and their counts. sagefe echo DECK shows how each card was read."},
     {"S215", "the totals do not match",
-     "The control card says how many nodes or elements there are, and the cards make another number. The "
-     "totals guard against lost cards and wrong generation, so this is not ignored.",
-     "Find the card that is missing or generates too much; then correct it, or the total (zero = not "
-     "checked)."},
+     "The control card gives a total number of nodes or elements, and the cards make another number. Totals "
+     "reveal lost cards and wrong generation, so a difference is an error.",
+     "Find the card that is missing or that generates too much, or correct the total. A total of zero is not "
+     "checked."},
     {"S216", "an element names a node twice",
-     "The same node stands at two corners of one element. A quadrilateral of 4 nodes may become a "
-     "triangle so; other elements may not, and pairs of interfaces are two nodes at one place.",
-     "Correct the node number; for an interface give each side nodes of its own."},
+     "Two corners of one element are the same node. Only a quadrilateral of 4 nodes may do that: it becomes a "
+     "triangle. The pairs of an interface element are two different nodes at one place.",
+     "Correct the node number. Give each side of an interface nodes of its own."},
     {"S217", "an element has the wrong number of nodes",
-     "The card gives fewer or more nodes than the element type has, or leaves a corner blank. Mid-side "
-     "nodes may be left blank all together: they are made.",
-     "Give all corners, and all mid-side nodes or none; or choose the element type for that number of "
+     "The card gives more or fewer nodes than the element type has, or leaves a corner blank. If all mid-side "
+     "nodes are blank, sagefe makes them.",
+     "Give all corners, and either all mid-side nodes or none. Or choose the element type for this number of "
      "nodes on the group card."},
     {"S218", "a generated line or block does not work out",
      "The numbers of nodes or elements, the steps and the corners of a line or block contradict each other. "
-     "The last number is not reached, a corner is not defined before it, two nodes would get one number, or "
-     "far too many would be made.",
-     "Check columns, rows and steps: node = first + column x column step + row x row step. Corners must "
-     "be defined on cards before the block."},
+     "The last number is not reached, a corner is not defined yet, two nodes would get one number, or far too "
+     "many nodes would be made.",
+     "Check columns, rows and steps: node = first + column x column step + row x row step. Define the corners "
+     "on cards before the block."},
     {"S219", "a step or count was left blank",
-     "A blank was taken as 1, or a step without an end was ignored; the message says how the card was "
-     "understood.",
-     "Nothing, where that is meant; otherwise write the number."},
+     "sagefe read a blank as 1, or ignored a step without an end. The message gives the meaning that was used.",
+     "If that is meant, nothing needs to be done. Otherwise write the number."},
     {"S220", "a spacing ratio is extreme",
-     "The last interval is very many times as long as the first. Elements beside each other then differ "
-     "so much in size that accuracy suffers, or the ratio was meant as another quantity (a length).",
-     "Ratios between 0.05 and 20 over a whole line are usual. Use more elements instead."},
+     "The last interval is very many times as long as the first. Neighbouring elements then differ so much in "
+     "size that accuracy suffers. Or the number was meant as a length.",
+     "Ratios between 0.05 and 20 over a whole line are usual. Use more elements in place of a larger ratio."},
     {"S221", "a parameter of a law is missing", "The law needs this parameter and has no default for it.",
-     "Give it on the parameter card, in the order that sagefe list materials shows, or that the layout "
-     "names."},
-    {"S222", "a parameter takes its default", "The parameter was left blank and has a default, which is used.",
-     "Write the value if the default is not meant."},
-    {"S223", "a law has not so many parameters, or none of this name",
-     "The card gives more values than the law has parameters, or a program names one that it lacks: the law "
-     "is another one than meant, or a parameter was put in twice.",
-     "Compare with sagefe list materials."},
-    {"S224", "a law or element refuses a parameter",
-     "The value is outside of what the law can compute with: a modulus of zero, Poisson's ratio of 0.5, "
-     "a friction angle of 90 degrees, dilation above friction. Angles are degrees, stresses the deck's "
-     "units.",
-     "Correct the value. For nearly incompressible soil take nu up to 0.4999999 with quad4 enhanced "
-     "(--formulation 5) or 8-node elements."},
+     "Give the parameter on the parameter card, in the order that sagefe list materials shows or that the "
+     "layout names."},
+    {"S222", "a parameter has its default", "The parameter is blank, so sagefe uses its default.",
+     "If the default is not meant, write the value."},
+    {"S223", "a law has no such parameter, or fewer parameters",
+     "The card gives more values than the law has parameters, or a program names a parameter that the law "
+     "lacks. The intended law is another one, or a parameter was inserted twice.",
+     "Compare the card with sagefe list materials."},
+    {"S224", "a law or element rejects a parameter",
+     "The law or element can't compute with the value: a modulus of zero, a Poisson's ratio of 0.5, a friction "
+     "angle of 90 degrees, or dilation above friction. Angles are in degrees, stresses in the deck's units.",
+     "Correct the value. For nearly incompressible soil use nu up to 0.4999999 with quad4 enhanced "
+     "(--formulation 5) or with 8-node elements."},
     {"S225", "law and element do not fit",
-     "Solids need a law for solids, interfaces a law of joints: the group's material is of the other "
-     "kind.",
-     "Give the group a material of the right kind; sagefe list materials says for each law what it is "
-     "for."},
+     "Solid elements need a law for solids, and interface elements a law for joints. The material of the group "
+     "is of the other kind.",
+     "Give the group a material of the right kind. sagefe list materials shows the kind of each law."},
     {"S226", "the shape of an element can't be used",
-     "The element has no area, is folded, runs clockwise, has a corner of 180 degrees or more, lies at "
-     "negative radius, or the pairs of an interface are not at one place. Stiffness would be negative or "
-     "infinite there.",
-     "List the nodes counter-clockwise in the order the message gives, or correct the coordinate that is "
-     "off. For an interface, nodes 1-2 run along one side and 3-4 back along the other; in axisymmetry x "
-     "is the radius."},
+     "The element has no area, is folded, runs clockwise, has a corner of 180 degrees or more, or lies at a "
+     "negative radius; or the nodes of a pair of an interface are at different places. The stiffness would be "
+     "negative or infinite.",
+     "List the nodes counter-clockwise in the order that the message gives, or correct the wrong coordinate. "
+     "In an interface, nodes 1-2 run along one side and nodes 3-4 back along the other. In axisymmetry x is "
+     "the radius."},
     {"S227", "elements are badly distorted",
-     "An element is still computable, but its angles are so far from 90 degrees (60 for triangles), or "
-     "its sides so uneven, that stresses in it are of little worth.",
-     "Move the nodes, or make the mesh finer where it turns; 8-node elements bear distortion better than "
-     "4-node ones. Far from where results are read it does no harm."},
-    {"S228", "a title or name is no clean text",
-     "It holds bytes that are no UTF-8, or control characters; the outputs show ? for them. Computation "
-     "is not touched.",
+     "sagefe can compute with the element, but the stresses in it are inaccurate. Its angles are far from 90 "
+     "degrees (60 in triangles), or its sides have very different lengths.",
+     "Move the nodes, or make the mesh finer where it turns. 8-node elements tolerate distortion better than "
+     "4-node ones. Far from the results of interest it does no harm."},
+    {"S228", "a title or name has bytes that are no text",
+     "The text holds control characters or bytes that are no UTF-8. The outputs show ? in their place. The "
+     "computation does not change.",
      "Write the name in ASCII or UTF-8."},
-    {"S229", "the deck asks for something that is not computed",
-     "The deck has cards for what this program lacks: water, beams or bars, creep, dynamics or parts of "
-     "them. The result without them answers another question.",
-     "Take these cards out if the question allows it, or give --partial: the rest is computed, and every "
-     "result says what is missing."},
+    {"S229", "the deck needs something that sagefe does not compute",
+     "The deck has cards for something that sagefe lacks or does not translate from this program; the message "
+     "names it. Without these cards the results answer another question.",
+     "Remove these cards if the question allows it. Or use --partial: sagefe then computes the rest, and every "
+     "result lists what is missing."},
     {"S230", "there is no such edge",
-     "A pressure card names two nodes, or an element and an edge number, between which no edge of that "
-     "solid lies; or the edge lies between two elements and the card does not say which of them is "
-     "meant.",
-     "Give the two end nodes of one element edge, one edge a card (a longer line needs a card for each), "
-     "and the element where two share the edge."},
-    {"S231", "an edge is listed the wrong way round",
-     "The layout says in which sense edges run around their elements, and this one runs the other way: "
-     "pressure would act in the opposite direction.",
-     "Exchange the nodes of the card, or give the layout's edge card a field sense (3: either)."},
+     "A pressure card names two nodes, or an element and an edge number, between which this solid has no edge. "
+     "Or the edge lies between two elements and the card does not choose one of them.",
+     "Give the two end nodes of one element edge on each card; a longer line needs one card per edge. Give the "
+     "element if two elements share the edge."},
+    {"S231", "an edge is listed in the wrong direction",
+     "The layout defines the direction in which edges run around their elements. This edge runs the other way, "
+     "so that its pressure would act in the opposite direction.",
+     "Exchange the nodes of the card. Or give the edge card of the layout a field sense (3: both directions)."},
     {"S232", "the nodes of an edge do not fit its load",
-     "A value for a third node is given but no third node, or the middle node is not that of the edge.",
+     "The card has a value for a third node but no third node, or its middle node is not that of the edge.",
      "Give all three nodes of a quadratic edge in their order, or leave the third value blank."},
     {"S233", "a support card contradicts itself",
-     "A displacement is given without code 1 (fixed), or other than zero before the first stage, or a "
-     "release (-1) outside of a stage: there is nothing yet to be moved or released.",
+     "The card has a displacement without code 1 (fixed), a nonzero displacement before the first stage, or a "
+     "release (-1) outside of a stage. Before the first stage nothing can move or be released.",
      "Put prescribed displacements and releases on the fixity cards of a stage, with code 1 or -1."},
-    {"S234", "a support card changes nothing or takes a default",
-     "Both codes are 0 or blank, so the card does nothing; or a displacement was left blank, which holds "
-     "the node where it is.",
+    {"S234", "a support card has no effect or uses a default",
+     "Both codes are 0 or blank, so the card has no effect. Or a displacement is blank, and the node is held "
+     "where it is.",
      "Give the code (1 fixed, -1 released), or remove the card."},
-    {"S235", "an unknown of a node is not there",
-     "The card names a field such as rotation or pore pressure that no element at this node solves for, "
-     "or gives it two components where it has one.",
-     "Take the field's name from the message, or give the node an element that solves for it."},
+    {"S235", "the unknown does not exist at this node",
+     "The card names an unknown, such as rotation or pore pressure, that no element at this node solves for. "
+     "Or it gives two components of an unknown that has one.",
+     "Use a name from the message, or give the node an element that solves for this unknown."},
     {"S236", "an initial stress or history card does not fit",
      "The kind of the card is not for this group (1 geostatic: solids; 3 traction of the neighbours: "
-     "interfaces), a quantity stands twice or does not exist, or the law can't start from what is "
-     "stated.",
-     "Choose the kind for the group and the values in their order: docs/manual/deck_format.md, card "
-     "initial. sagefe list materials counts the history of each law."},
+     "interfaces). Or a quantity is given twice or does not exist. Or the law can't start from the given "
+     "state.",
+     "Choose the kind for the group and give the values in their order: docs/manual/deck_format.md, card "
+     "initial. sagefe list materials gives the number of history variables of each law."},
     {"S237", "values of an initial stress card are blank or not used",
-     "Blank components read as 0, and values the kind has no use for are ignored. Both often come from "
-     "another kind of card having been in mind.",
-     "Compare with docs/manual/deck_format.md, card initial; write the zeros that are meant."},
+     "sagefe reads blank components as 0 and ignores values that this kind of card does not use. Often the "
+     "values were meant for another kind of card.",
+     "Compare the card with docs/manual/deck_format.md, card initial. Write the zeros that are meant."},
     {"S238", "a number of the stage card is out of range",
-     "Increments, duration or tolerance of the stage can't be as given: at least 1 increment, a "
-     "tolerance between 0 and 1 (1e-8 where blank), no negative time.",
+     "A stage needs at least 1 increment, a tolerance between 0 and 1 (blank means 1e-8) and a time that is "
+     "not negative.",
      "Correct the field."},
-    {"S239", "births and deaths contradict each other",
-     "A group is activated twice, or removed before it is activated or in the same stage; or an element is "
-     "removed twice. A group that was removed can't come back: its history is gone.",
-     "Correct the stages. To place a body again, use another group with the same nodes and a material of its "
-     "own."},
-    {"S240", "increments and what they drive do not fit",
-     "Load factors stand without a load, displacements without a displacement card, or both kinds on one "
-     "card.",
-     "Give each increments card one kind of numbers, and the card that says what they multiply."},
-    {"S241", "strength factors can't be used as given",
-     "Factors on strength need a deck with one step of loading, no start stress, and a material with a "
-     "strength; each must lie above 0.",
-     "Correct the factor, or reduce the strength on the material card and run the deck twice. sagefe "
-     "safety searches for the factor of any deck."},
+    {"S239", "activations and removals contradict each other",
+     "A group is activated twice, or is removed before or in the stage of its activation; or an element is "
+     "removed twice. A removed group can't return, because its history is lost.",
+     "Correct the stages. To place a body again, use another group with the same nodes and its own material."},
+    {"S240", "the increments card does not fit the stage",
+     "The card has load factors but the stage has no load, or it has displacements but there is no "
+     "displacement card. Or one card has both kinds of numbers.",
+     "Give each increments card one kind of numbers, and add the card with the load or displacement that they "
+     "multiply."},
+    {"S241", "strength factors can't be used here",
+     "Factors on strength need a deck with one step of loading, no initial stress, and a material with a "
+     "strength. Each factor must be above 0.",
+     "Correct the factor. Otherwise reduce the strength on the material card and run the deck twice, or use "
+     "sagefe safety, which finds the factor of any deck."},
     {"S242", "a report card lacks something",
-     "A report needs what its kind measures: a height for a triaxial specimen, a point card for a point, "
-     "a stage that exists, an area where it can't be found from the nodes.",
+     "A report needs the data of its kind: a height for a triaxial specimen, a point card for a point, a stage "
+     "that exists, and an area if the nodes do not define it.",
      "Complete the card: docs/manual/deck_format.md, cards report and point."},
     {"S243", "a point lies outside the mesh",
-     "No solid element of the mesh, or of the group asked for, holds the point. Units (mm for m) and "
-     "exchanged coordinates are the usual reasons.",
-     "Correct the coordinates or the group; a point on the edge of the mesh counts as inside."},
+     "No solid element of the mesh, or of the chosen group, contains the point. The usual reasons are units "
+     "(mm for m) and exchanged coordinates.",
+     "Correct the coordinates or the group. A point on the boundary of the mesh counts as inside."},
     {"S244", "a node on the axis can't be moved radially",
-     "At r = 0 the radial displacement is zero by symmetry. A value, or a release, would tear a hole "
-     "into the body.",
-     "Remove the radial code of that node, or check whether the model is meant to be in plane strain "
-     "(geometry 1)."},
+     "At r = 0 the radial displacement is zero by symmetry. A prescribed value or a release would open a hole "
+     "in the body.",
+     "Remove the radial code of that node. Or check whether the model should be in plane strain (geometry 1)."},
     {"S245", "the start stress can't be computed",
-     "The start stress from the weight of the ground needs horizontal layers of one unit weight each, K0 "
-     "of every material, a level not below the ground, and no interfaces in it: only then is it in "
-     "equilibrium by itself.",
-     "Give what is missing. On other ground use a first stage with a gravity card, or initial cards by "
+     "sagefe computes the start stress from the weight of the ground only if that stress is in equilibrium by "
+     "itself. It needs horizontal layers with one unit weight each, K0 of every material, a level at or above "
+     "the ground, and no interfaces in the ground.",
+     "Give what is missing. For other ground use a first stage with a gravity card, or initial cards for each "
      "group (kind 1 for ground, kind 3 for interfaces)."},
-    {"S246", "the start stress and equilibrium",
-     "The state at the start holds only with forces that the deck does not state: pressures at free "
-     "edges, or K0 that differs along one level. The message names what was added, or what will move in the "
+    {"S246", "the start stress is in equilibrium only with added forces",
+     "The deck does not state all forces that balance the start stress: there are pressures at free edges, or "
+     "K0 differs along one level. The message names the forces that sagefe added, or what will move in the "
      "first increment.",
-     "Where K0 differs, give one value a level, or let a gravity stage find the stresses."},
+     "If K0 differs, give one value for each level, or let a gravity stage find the stresses."},
     {"S247", "p_a or gamma_w is missing",
-     "The law uses the atmospheric pressure or the unit weight of water of the deck's unit system, which "
-     "has no built-in units.",
-     "Give it on the control or unit card: p_a is 101.325 kPa or 14.696 psi, gamma_w 9.81 kN/m3 or "
+     "The law uses the atmospheric pressure or the unit weight of water. Decks have no built-in units, so "
+     "sagefe can't supply them.",
+     "Give the value on the control or unit card. p_a is 101.325 kPa or 14.696 psi; gamma_w is 9.81 kN/m3 or "
      "0.036111 pci."},
     {"S248", "a water card does not fit",
-     "The card lacks what its kind needs (points of a line, pairs of node and pressure, r_u, a bulk of water), "
-     "or has numbers where its kind reads none. Or it names a stage that does not exist or a group that is no "
-     "solid, or needs heads where none are solved for.",
+     "The card lacks what its kind needs (points of a line, pairs of node and pressure, r_u, a bulk modulus of "
+     "water), or has numbers that its kind does not use. Or it names a stage that does not exist or a group "
+     "without solids, or it needs heads that no element solves for.",
      "Complete the card: docs/manual/deck_format.md, card water; docs/manual/water.md."},
     {"S249", "undrained, and a pressure is given",
-     "The pore pressure of an undrained group follows from its change of volume. A card that changes it in the "
-     "same stage contradicts that.",
-     "Give the pressure in an earlier stage, or make the group drained (kind 6) first."},
+     "The pore pressure of an undrained group follows from its change of volume. A card that sets the pressure "
+     "in the same stage contradicts that.",
+     "Give the pressure in an earlier stage, or first make the group drained (kind 6)."},
     {"S250", "heads of an earlier run can't be used",
-     "A water card of kind 7 takes heads from the result file of another run. The file is missing or none of "
-     "this "
-     "program, its run solves for no heads, ended without equilibrium or lacks the stage, its lengths or "
-     "geometry are "
-     "others, or nodes of this deck lie outside its mesh.",
-     "Run the deck of the flow with --result, name its STEM.h5 as seen from this deck's folder, and let its "
-     "mesh hold "
-     "all solids that the card is about."},
+     "A water card of kind 7 reads heads from the result file of another run. The file is missing, is not from "
+     "sagefe, or belongs to a run without heads, without this stage or without equilibrium. Or its unit of "
+     "length or its geometry differs, or nodes of this deck lie outside its mesh.",
+     "Run the deck of the flow with --result. Name its STEM.h5 relative to the folder of this deck. Its mesh "
+     "must contain all solids that the card concerns."},
     {"S251", "a mesh lies in another plane",
-     "A model in two dimensions lies in the plane of x and y. The nodes of this mesh have several heights z: "
-     "it "
-     "was drawn in the x-z or y-z plane, or is a surface in space.",
-     "Draw the geometry with one z and y upwards, or turn it in the program that made the mesh (Gmsh: "
-     "Rotate)."},
+     "A two-dimensional model lies in the x-y plane. The nodes of this mesh have different heights z: it was "
+     "drawn in the x-z or y-z plane, or it is a surface in space.",
+     "Draw the geometry at one z with y upwards, or turn it in the program that made the mesh (Gmsh: Rotate)."},
     {"S252", "a surface belongs to two groups",
-     "Each surface of a mesh becomes part of one element group with one material, and this one has two names.",
-     "Give the surface one physical group, or in an .inp file name the sets of the groups by *SOLID SECTION. "
-     "Curves may belong to several."},
-    {"S253", "an element can't take the place of the deck's",
-     "--element and --element-b replace quadrilaterals by others with as many nodes or more: the middle nodes "
-     "that the cards lack are made. Nodes that the cards give are never dropped, and triangles stay.",
+     "Each surface of a mesh becomes part of one element group with one material. This surface has two names.",
+     "Give the surface one physical group. In an .inp file name the sets of the groups by *SOLID SECTION. "
+     "Curves may belong to several groups."},
+    {"S253", "an element can't replace that of the deck",
+     "--element and --element-b replace quadrilaterals by elements with as many nodes or more, and make the "
+     "mid-side nodes that the cards lack. They never drop nodes of the cards, and they leave triangles as they "
+     "are.",
      "Choose an element with enough nodes (sagefe list elements), or write the deck with 4-node "
      "quadrilaterals."},
     {"S254", "the data of a section are incomplete",
      "A point, line or area of a drawn section lacks something. An index names no point or line, a line has "
-     "too few points, the ends of an arc are not equally far from its centre, or a size is negative.",
+     "too few points, the ends of an arc have different distances from its centre, or a size is negative.",
      "Complete or correct the item that the message names."},
     {"S255", "an outline encloses no area",
-     "The outline of an area or of its hole crosses or touches itself, encloses nothing, or the hole reaches "
-     "outside of the outline. Inside and outside can't be told apart then.",
+     "The outline of an area or of its hole crosses or touches itself or encloses nothing, or the hole extends "
+     "beyond the outline. Inside and outside are then undefined.",
      "List the corners in their order around the area. Divide an area that touches itself into two."},
     {"S256", "areas of a section overlap",
      "Two areas contain the same ground. Each place belongs to one area with one material.",
-     "Let the areas share an edge, or give the larger one a hole that the smaller one fills."},
+     "Let the areas share an edge, or give the larger one a hole for the smaller one."},
     {"S257", "a line of a section lies outside of all areas",
-     "A line without a beam needs an area on one side at least, and a joint needs areas on both sides. A line "
-     "with a beam may stick out of the ground, but must touch it.",
-     "Correct the line's points, or the outline of the area that should reach there."},
-    {"S258", "two lines with structures lie on each other",
-     "A piece of a section's outline or ground can carry one beam, and one row of interface elements on each "
-     "side of it. Here two lines ask for it.",
+     "A line without a beam needs an area on at least one side, and a joint needs areas on both sides. A line "
+     "with a beam may extend beyond the ground, but must touch it.",
+     "Correct the points of the line, or extend the outline of the area to it."},
+    {"S258", "two lines with structures coincide",
+     "A piece of outline or ground in a section can carry one beam, with one row of interface elements on each "
+     "side. Here two lines give it a beam or an interface.",
      "Let one of the lines end where the other begins, or remove the beam or the interfaces of one."},
     {"S259", "this section needs Gmsh",
-     "Gmsh makes meshes of general areas and can't be loaded. Without it the program meshes areas of four "
-     "sides whose opposite sides have as many pieces, and sections in which all lines are horizontal or "
-     "vertical.",
-     "Install Gmsh's library (Debian: libgmsh4.8), name its file in SAGEFE_GMSH, or divide the area into "
+     "Gmsh, which makes meshes of general areas, can't be loaded. Without it sagefe can mesh two kinds of "
+     "sections: areas of four sides whose opposite sides have equally many pieces, and sections whose lines "
+     "are all horizontal or vertical.",
+     "Install Gmsh's library (Debian: libgmsh4.8), or give its file in SAGEFE_GMSH. Or divide the area into "
      "blocks."},
     {"S260", "there is nothing to divide for a safety factor",
-     "sagefe safety divides the strengths of the chosen groups. The deck has no such stage or group, or no "
-     "chosen group has a law whose entry names a strength. Elastic laws have none; joints, anchors and walls "
-     "are divided where --reduce names them only. A law of your own names its strengths by the roles of its "
-     "parameters.",
-     "Correct --stage or --group, name more parts in --reduce, or give the soil a law with strength "
-     "(sagefe list materials)."},
+     "sagefe safety divides the strengths of the chosen groups. Either the deck has no such stage or group, or "
+     "no chosen group has a law with a strength. Elastic laws have none. Joints, anchors and walls are divided "
+     "only if --reduce names them. Your own law declares its strengths by the roles of its parameters.",
+     "Correct --stage or --group, name more parts in --reduce, or give the soil a law with strength (sagefe "
+     "list materials)."},
     {"S261", "Gmsh can't mesh an area",
-     "Gmsh reported an error, left a part of the area empty, or put elements across a line. Lines that almost "
-     "touch, or that meet at a very small angle, are the usual cause.",
+     "Gmsh reported an error, left a part of the area empty, or put elements across a line. The usual causes "
+     "are lines that almost touch or that meet at a very small angle.",
      "Let lines that almost meet share a point, or choose smaller sizes around them."},
-    {"S262", "the sizes ask for too many elements",
-     "The number of elements that a size asks for grows with its inverse square. Sizes are lengths of edges, "
-     "in "
-     "the unit of length of the coordinates.",
-     "Choose larger sizes, or small ones only at the points and lines that need them."},
+    {"S262", "the sizes give too many elements",
+     "Sizes are lengths of element edges in the unit of the coordinates. Half the size makes four times as "
+     "many elements.",
+     "Choose larger sizes, or use small sizes only at the points and lines that need them."},
     {"S263", "an element of a meshed section is turned inside out",
-     "Arcs become straight edges with nodes on the arc. Where another line passes closer than the arc bulges, "
-     "an "
-     "element between them has no area left.",
+     "An arc becomes straight edges between nodes on the arc. If another line is closer than the arc bulges, "
+     "an element between them loses its area.",
      "Choose smaller sizes along the arc, or move the other line."},
 
     // S3: a legal model that may not be meant.
     {"S301", "p_a or gamma_w does not fit the units",
-     "In the units the deck names, the atmospheric pressure or the unit weight of water has another "
-     "value. All moduli of hyperbolic laws, and the stiffness of joints, scale with it.",
+     "In the units that the deck names, the atmospheric pressure or the unit weight of water has another "
+     "value. All moduli of hyperbolic laws and the stiffness of joints are proportional to it.",
      "Correct the value, or the names of the units."},
     {"S302", "the units do not belong together",
-     "One unit of stress is not one unit of force over a unit of length squared, as with kN, mm and kPa. "
-     "Loads, weights and moduli then disagree by powers of ten.",
+     "The unit of stress is not the unit of force divided by the unit of length squared, as with kN, mm and "
+     "kPa. Loads, weights and moduli then differ by powers of ten.",
      "Use a consistent set: kN, m, kPa; N, mm, MPa; lbf, in, psi; kip, ft, ksf."},
     {"S303", "an initial stress is implausible",
-     "K0 outside 0.3 to 3, tension, a ground level far from the mesh, a negative weight, or a stress "
-     "above the material's modulus. Initial stresses are compression positive.",
+     "The card has K0 outside 0.3 to 3, tension, a ground level far from the mesh, a negative weight, or a "
+     "stress above the modulus of the material. Initial stresses are positive in compression.",
      "Check sign, unit and level. Tension at rest is wrong for most soils."},
     {"S304", "elements are needles",
-     "Elements are more than 10000 times as long as wide: most often a coordinate with a lost decimal "
-     "point, or a layer meant to be an interface.",
-     "Correct the coordinate; model thin zones by interface elements of zero thickness."},
+     "Elements are more than 10000 times as long as wide. Most often a coordinate lost its decimal point, or a "
+     "layer was meant to be an interface.",
+     "Correct the coordinate. Model thin zones by interface elements of zero thickness."},
     {"S305", "element numbers have a gap",
-     "Numbers jump: a block may be shorter than meant, and a part of the body be missing.",
-     "Look at the mesh (sagefe run DECK --picture displacement draws it). Nothing is to be done where the gap "
-     "is "
-     "meant."},
+     "The numbers are not consecutive. A block may be shorter than intended, so that a part of the body is "
+     "missing.",
+     "Look at the mesh: sagefe run DECK --picture displacement draws it. If the gap is intended, nothing needs "
+     "to be done."},
     {"S306", "a material parameter is implausible",
-     "A negative Poisson's ratio or unit weight, a strength above the modulus, or a friction angle that "
-     "looks like radians. The law can compute with it; soil is seldom like it.",
-     "Check unit and column. Angles are degrees."},
+     "The parameter is a negative Poisson's ratio or unit weight, a strength above the modulus, or a friction "
+     "angle that may be in radians. The law can compute with it, but few soils have such values.",
+     "Check the unit and the column. Angles are in degrees."},
     {"S307", "a displacement is larger than the mesh",
-     "Strains are taken as small; a displacement of the size of the body is a slip in its unit (mm for "
-     "m), or can't be described.",
+     "A prescribed displacement is larger than the whole body. Most often its unit is wrong (mm for m). "
+     "Small-strain analysis can't describe so large a displacement.",
      "Correct the value, or the unit of the coordinates."},
     {"S308", "a load is implausibly large",
-     "The force or pressure would strain the whole mesh by more than 1, or exceeds the largest modulus.",
-     "Check the unit of loads and moduli. In axisymmetry nodal forces are for the full circle."},
-    {"S309", "a release where nothing holds",
-     "Code -1 takes away a support, and this node had none in this direction.",
-     "Correct node or direction, or remove the card."},
+     "The force or pressure would strain the whole mesh by more than 1, or is larger than the largest modulus.",
+     "Check the units of loads and moduli. In axisymmetry a nodal force is that of the full circle."},
+    {"S309", "a release where nothing is held",
+     "Code -1 removes a support, and this node has none in this direction.",
+     "Correct the node or the direction, or remove the card."},
     {"S310", "a pressure acts in an unusual way",
-     "It pulls, acts on an edge inside the body that two elements share, or on one side of an interface "
-     "only. All are possible and seldom meant.",
-     "Check sign and nodes: positive pressure pushes into the element. Pressure belongs on the surface "
-     "as it is in that stage."},
+     "The pressure pulls, acts on an edge inside the body that two elements share, or acts on one side of an "
+     "interface only. All are possible, but rarely intended.",
+     "Check the sign and the nodes: a positive pressure pushes into the element. Apply it to the surface that "
+     "exists in that stage."},
     {"S311", "gravity acts in an unusual way",
-     "Gravity is a factor on unit weights, added to what earlier stages have; -1 in y is the usual one, "
-     "once. Factors above 3 (9.81 is the acceleration in m/s^2), an upward or radial direction, or a second "
-     "one are reported. Models of a centrifuge, up to about 3 m high, may have 15 to 500.",
-     "Give gravity_y = -1 in one stage. A stage that shall leave gravity as it is has 0."},
-    {"S312", "gravity and unit weights do not go together",
-     "Gravity acts, but no material has a unit weight, one is blank, or the weight of a column as high "
-     "as the mesh exceeds the modulus.",
-     "Give unit weights in the deck's force per cubed length (18 kN/m3, 0.065 pci); 0 where a body is "
-     "meant to be weightless."},
+     "Gravity is a factor on unit weights, which adds to that of earlier stages. The usual value is -1 in y, "
+     "once. sagefe reports factors above 3 (9.81 is the acceleration in m/s^2), an upward or radial direction, "
+     "and a second gravity. Models of a centrifuge, up to about 3 m high, may have 15 to 500.",
+     "Give gravity_y = -1 in one stage and 0 in stages that do not change gravity."},
+    {"S312", "gravity and unit weights do not fit",
+     "Gravity acts, but no material has a unit weight, or one unit weight is blank. Or the weight of a column "
+     "as high as the mesh is more than the modulus.",
+     "Give unit weights in force per volume of the deck's units (18 kN/m3, 0.065 pci). Write 0 for a "
+     "weightless body."},
     {"S313", "a stage has very many increments",
-     "Each increment is a solution of its own; the run takes as many times as long as one.",
-     "Fewer increments mostly give the same: compare with half as many. For elastic bodies one is "
-     "enough."},
+     "The time of a run is proportional to the number of its increments.",
+     "Fewer increments often give the same result: compare with half as many. Elastic bodies need one."},
     {"S314", "the tolerance is loose",
-     "So large a part of the forces may stay out of balance that what the stage calls equilibrium may be "
-     "none; reports and limit loads are off by about as much.",
-     "Take 1e-8 (blank) to 1e-4."},
+     "With this tolerance a state counts as equilibrium although a large part of the forces is unbalanced. "
+     "Reports and limit loads have errors of about that size.",
+     "Use 1e-8 (blank) to 1e-4."},
     {"S315", "an initial stress is replaced",
-     "Two initial cards are for one group in one stage. The later card stands.", "Remove one of them."},
+     "Two initial cards of one stage concern the same group. sagefe uses the later card.",
+     "Remove one of them."},
     {"S316", "a stage adds nothing",
      "The stage has no load, displacement, gravity, activation or removal. It only releases unbalanced forces. "
-     "That is right behind an initial stress, and else often a card that ended up in another stage.",
+     "That is right after an initial stress; otherwise the cards of this stage may have ended up in another "
+     "one.",
      "Check the order of the cards, or remove the stage."},
     {"S317", "a report's numbers do not fit the mesh",
-     "The height, area or cell pressure on the report card is far from the mesh or the moduli. Strain is "
-     "displacement over this height, stress is force over this area.",
-     "Give the height and area that were modelled (of the whole specimen, where a quarter of it is "
-     "meshed: see docs/manual/deck_format.md)."},
-    {"S318", "a point lies on a border, or in nothing active",
-     "Where bodies meet, stresses jump and one group has to answer; or no element that holds the point "
+     "The height, area or cell pressure on the report card is very different from the mesh or the moduli. "
+     "sagefe divides the displacement by this height and the force by this area.",
+     "Give the height and area that were modelled. If only a quarter of a specimen is meshed, give those of "
+     "the whole specimen (docs/manual/deck_format.md)."},
+    {"S318", "a point lies between groups, or in nothing active",
+     "Stresses jump between two groups, so the report needs one of them. Or no element that contains the point "
      "is active when the report starts.",
-     "Give the point's group, or move it off the border. Check which groups the stages activate and remove."},
+     "Give the point's group, or move the point away from the boundary. Check which groups the stages activate "
+     "and remove."},
     {"S319", "a straight side is held in part",
-     "Most nodes of a side are held along one direction and some are free: a forgotten node on a line of "
-     "symmetry, or the last number of a range.",
-     "Hold all nodes of a line of symmetry. Where the free ones are meant (a footing, a platen), nothing "
-     "is to be done."},
+     "Most nodes of a side are held in one direction and some are free. Often a node on a line of symmetry was "
+     "forgotten, or the last number of a range is wrong.",
+     "Hold all nodes of a line of symmetry. If nodes are free on purpose (beside a footing or platen), nothing "
+     "needs to be done."},
     {"S320", "two cards of a stage contradict each other",
-     "A node is given two displacements, or is held and released, in one stage. The last card stands; "
-     "corners that belong to two lines are the usual place.",
-     "Keep one card for the node, or give the last the value that is meant."},
+     "In one stage a node has two displacements, or is both held and released. Most often it is a corner on "
+     "two lines. sagefe uses the last card.",
+     "Keep one card for the node, or give the intended value on the last one."},
     {"S321", "a load on the axis has no effect",
-     "At r = 0 a radial force acts on nothing, and an edge there has no area.",
+     "At r = 0 a radial force has no effect, and an edge on the axis has no area.",
      "Remove the load, or check whether plane strain (geometry 1) is meant."},
     {"S322", "no element takes part in a stage",
-     "Every group is removed or not born yet, so there is nothing to be in equilibrium.",
-     "Correct which groups this stage or one before it activates and removes."},
+     "Every group has been removed or is not activated yet, so the model is empty.",
+     "Correct which groups this stage or an earlier one activates and removes."},
     {"S323", "nothing holds the mesh",
-     "A part of the body can move without straining: as a whole along x or y, or turn. The stiffness "
-     "matrix is singular then. Parts that touch without common nodes or an interface are separate.",
-     "Add fixities, at least two in one direction and one in the other (one along the axis in "
-     "axisymmetry); join parts by common nodes or interfaces."},
+     "A part of the body can move without strain, either as a whole along x or y, or by turning. The stiffness "
+     "matrix is then singular. Parts that touch without common nodes or an interface are separate bodies.",
+     "Add at least two fixities in one direction and one in the other; in axisymmetry one along the axis is "
+     "enough. Join parts by common nodes or interfaces."},
     {"S324", "the solver is for symmetric matrices only",
-     "Plastic flow that is not associated (dilation other than friction), and interfaces with friction, "
-     "have an unsymmetric tangent. A symmetric solver would converge badly or not at all.",
-     "Solver 0 (automatic), or an unsymmetric one of sagefe list solvers."},
+     "Non-associated plastic flow (dilation differs from friction) and interfaces with friction have an "
+     "unsymmetric tangent. A symmetric solver would converge slowly or not at all.",
+     "Use solver 0 (automatic), or an unsymmetric solver of sagefe list solvers."},
     {"S325", "elements lock near nu = 1/2",
-     "Fully integrated 4-node elements of nearly incompressible material are too stiff, and stresses "
-     "oscillate from element to element; the source chapter's nu = .495 entries are 3 to 4 percent off "
-     "by it.",
-     "--formulation 5 (enhanced) or 8-node elements (--element quad8). Compare both: sagefe compare DECK "
-     "--formulation-b 5."},
+     "Fully integrated 4-node elements of nearly incompressible material are too stiff, and their stresses "
+     "oscillate from element to element. The source chapter's entries for nu = .495 have errors of 3 to 4 "
+     "percent for this reason.",
+     "Use --formulation 5 (enhanced) or 8-node elements (--element quad8). sagefe compare DECK --formulation-b "
+     "5 shows the difference."},
     {"S326", "elements overlap",
-     "Two elements cover the same ground: its stiffness and weight count twice. A block is there twice, a node "
-     "lies beyond its neighbour, or a group that a later stage activates on the same nodes is not declared.",
-     "Correct nodes or blocks. A group that lies on others on purpose (a reinforced zone, a body that comes "
-     "back) needs overlay 1."},
+     "Two elements cover the same ground, so that its stiffness and weight count twice. A block was given "
+     "twice, a node lies beyond its neighbour, or two groups of different stages use the same nodes without "
+     "overlay.",
+     "Correct the nodes or the block. Give overlay 1 to a group that lies on another one on purpose, such as a "
+     "reinforced zone or a body that comes back."},
     {"S327", "an interface does not lie between its bodies",
-     "The sides of an interface element belong to the wrong bodies, or its nodes are not those of the "
-     "solids beside it: normal stress would come with the wrong sign.",
-     "List nodes 1-2 along the side of the first body and 3-4 back along the other, each side with nodes "
-     "of its own solid."},
+     "The sides of the interface element belong to the wrong bodies, or its nodes are not those of the "
+     "neighbouring solids. The normal stress would have the wrong sign.",
+     "List nodes 1-2 along the side of the first body and nodes 3-4 back along the other. Each side uses the "
+     "nodes of its own solid."},
     {"S328", "nodes on the axis are held",
-     "In axisymmetry the radial displacement at r = 0 is zero; these nodes had no support and were given "
-     "one.",
-     "Nothing is to be done. In plane strain (geometry 1) it does not happen."},
+     "In axisymmetry the radial displacement at r = 0 is zero. These nodes had no radial support, so sagefe "
+     "added one.",
+     "Nothing needs to be done. In plane strain (geometry 1) sagefe adds no supports."},
     {"S329", "something is not used",
-     "Nodes belong to no element, or no group has this material. They are left out of the computation.",
-     "Nothing, or remove the cards. Many unused nodes mean that a block of elements is missing."},
+     "Nodes belong to no element, or no group has this material. sagefe leaves them out.",
+     "Nothing needs to be done, or remove the cards. Many unused nodes are a sign that a block of elements is "
+     "missing."},
     {"S330", "a node without elements is loaded or displaced",
-     "The node belongs to no element (in any stage), so a load or displacement there reaches nothing.",
-     "Correct the node number; mid-side nodes that are made get numbers behind those of the deck."},
+     "The node belongs to no element in any stage, so that a load or displacement there has no effect.",
+     "Correct the node number. Mid-side nodes that sagefe makes have numbers behind those of the deck."},
     {"S331", "a law warns of its parameters",
-     "The law can compute with these parameters, and says in which range they mislead.",
-     "Read the law's page in docs/theory; the message names parameter and range."},
-    {"S332", "a card does nothing in its stage",
-     "What it names is not active then: the elements are removed or not yet born, or the nodes belong to "
-     "none that is, or have no such unknown (a support of displacements where only water flows).",
-     "Move the card to the right stage, correct which groups are active, or give the unknown's name (head)."},
-    {"S334", "the mesh is coarse for what is asked",
-     "Between two loads or supports lie so few elements that the answer there is far from that of a fine "
-     "mesh. The message says by about how much.",
-     "--refine 1 and compare, or --error and --converge: docs/manual/accuracy.md."},
+     "The law can compute with these parameters, but its results may mislead; the message gives the range.",
+     "Read the page of the law in docs/theory."},
+    {"S332", "a card has no effect in its stage",
+     "The elements of the card are removed or not activated yet in this stage. Or its nodes belong to no "
+     "active element, or have no such unknown (a support of displacements where only water flows).",
+     "Move the card to the right stage, correct which groups are active, or give the name of the unknown "
+     "(head)."},
+    {"S334", "the mesh is coarse for the question",
+     "Too few elements lie between two loads or supports, so that the result there is far from that of a fine "
+     "mesh. The message gives the approximate error.",
+     "Compare with --refine 1, or use --error or --converge: docs/manual/accuracy.md."},
     {"S335", "interfaces touch no solid",
-     "An interface element has a solid on neither side, so that it can't be checked which side is which.",
-     "Nothing, where its nodes are held by fixities on purpose; otherwise correct its nodes."},
+     "An interface element has no solid on either side, so sagefe can't check which side is which.",
+     "If fixities hold its nodes on purpose, nothing needs to be done. Otherwise correct its nodes."},
     {"S336", "bodies meet without being joined",
-     "Two nodes lie at one place and belong to separate bodies with no interface between them: the "
-     "bodies can pass through each other.",
-     "Use one node for both, or put an interface element between them. Separate bodies on purpose (a "
-     "gap) can stay."},
-    {"S337", "a node hangs on a neighbour's side",
-     "A node of one element lies on the edge of another that does not have it: the mesh gapes or "
-     "overlaps there once it deforms.",
-     "Refine so that edges meet whole, or use elements with mid-side nodes where the hanging node lies "
-     "in the middle."},
-    {"S338", "nodes hang on a joint alone",
-     "In this stage no solid is active on one side of the joint: its nodes are held only by the joint's "
-     "own stiffness, and by nothing once it opens.",
-     "Place and remove a joint together with its solid, or hold the nodes by fixities."},
-
-    // S4: refining, grading and mid-side nodes.
+     "Two nodes at one place belong to separate bodies without an interface between them. The bodies can move "
+     "through each other.",
+     "Use one node for both, or put an interface element between them. If the bodies are separate on purpose "
+     "(a gap), nothing needs to be done."},
+    {"S337", "a node lies within a neighbour's side",
+     "A node of one element lies on the edge of another that does not have this node. The mesh opens or "
+     "overlaps there when it deforms.",
+     "Refine the mesh so that whole edges meet. If the node is in the middle of the edge, use elements with "
+     "mid-side nodes."},
+    {"S338", "nodes are held by a joint alone",
+     "In this stage one side of the joint has no active solid. The stiffness of the joint alone holds these "
+     "nodes, and nothing holds them when it opens.",
+     "Activate and remove a joint together with its solid, or hold the nodes by fixities."},
     {"S339", "water above a free edge that no load balances",
-     "The phreatic line lies above edges that nothing supports, and its card says that no water stands there "
-     "(action 1): the soil is pressed outwards by its own water.",
-     "Action 0 lets the water stand at the edges; or lower the line, as where the soil is covered."},
-    {"S340", "pore pressure lifts what lies above",
-     "The pore pressure is more than the weight of soil and water above: the vertical effective stress is "
-     "negative, as in the floor of an excavation over an artesian layer.",
-     "Lower the pressure (dewatering), leave more ground, or check the level of water and the unit weights."},
-    {"S341", "open water beside a wall that has none on it",
-     "Water stands on the ground in front of a wall or beside a slab, and on the beams themselves there is "
-     "none: "
-     "they would bear the water behind them without what stands in front.",
-     "A water card of kind 1 that names the group of the beams, with the side in value 1: "
-     "docs/manual/water.md. "
-     "Nothing, where the wall is meant to keep its water in and a pressure card or nothing stands there on "
-     "purpose."},
+     "The phreatic line lies above edges that nothing supports, and action 1 of its card declares that no "
+     "water stands there. The water in the soil then pushes the edge outwards.",
+     "Use action 0, with which free water acts on the edges. Or lower the line; if the soil is covered, no "
+     "water stands on it."},
+    {"S340", "pore pressure lifts the soil above",
+     "The pore pressure is larger than the weight of the soil and water above, so that the vertical effective "
+     "stress is negative. An example is the floor of an excavation over an artesian layer.",
+     "Lower the pressure (dewatering), leave more ground, or check the water level and the unit weights."},
+    {"S341", "open water beside a wall, but not on the wall",
+     "Open water lies on the ground in front of a wall or beside a slab, but does not act on its beams. The "
+     "beams would carry the water behind them without the balancing water in front.",
+     "Add a water card of kind 1 that names the group of the beams, with the side in value 1 "
+     "(docs/manual/water.md). If a pressure card replaces that water, or there is none on purpose, nothing "
+     "needs to be done."},
     {"S345", "a structure is held by joints alone",
-     "A wall, raft or lining shares no node with solids, no support holds it, and its joints carry no "
-     "tension: what holds it is pressure and friction. Where joints lie on one side only it can lift off.",
-     "Nothing, where weight or pressure is there from the first increment on. Else hold a node (a wall's toe), "
-     "give the joint tension, or let the structure share nodes with the soil."},
+     "A wall, raft or lining shares no node with solids and has no support, and its joints carry no tension. "
+     "Only pressure and friction hold it. If the joints lie on one side only, it can lift off.",
+     "If weight or pressure acts from the first increment on, nothing needs to be done. Otherwise hold a node "
+     "(the toe of a wall), give the joint tension, or let the structure share nodes with the soil."},
     {"S346", "a beam turns freely",
-     "The beam meets the rest of the model in a single node, and neither a support nor another beam holds its "
-     "rotation there: solids and bars hold displacements alone. The stiffness matrix is singular then.",
-     "Hold the rotation of that node by a fixity card with the unknown's name, let the beam go on into the "
+     "The beam meets the rest of the model in a single node. Solids and bars hold the displacements of that "
+     "node, but neither a support nor another beam holds its rotation. The stiffness matrix is then singular.",
+     "Hold the rotation of that node by a fixity card that names this unknown, continue the beam into the "
      "solid along a side, or use a bar."},
     {"S347", "released ends meet at a node",
-     "A beam whose end is released along its line (or across it) has one more unknown at that node, along its "
-     "own line. Two such beams would share it.",
-     "List the nodes of one of them the other way round, so that its released end is at its other node."},
+     "A beam end that is released along or across its line has one more unknown at the node, in its own "
+     "direction. Two such ends at one node would share that unknown.",
+     "List the nodes of one beam in the other order, so that its released end is at its other node."},
     {"S348", "a joint that slips follows a polygon",
-     "Interfaces of two pairs of nodes stand for a curve, as around a pipe. A node that slides along one chord "
-     "opens or closes the next, so that the smooth pipe is held as if it were bonded: thrust and moment are "
-     "those of the bonded one.",
-     "interface6 with quad8 and beam3 and the nodes in the middle on the curve (docs/manual/structures.md); or "
-     "nothing, where the joint does not slip under the loads of the deck."},
-    {"S349", "a joint beside undrained soil bears its water",
-     "A joint's traction is effective where the pore pressure is given. The excess pressure of an undrained "
-     "group "
-     "follows from its change of volume and is not taken off: the traction there is the total one, and "
-     "friction "
-     "counts water as grains.",
-     "A joint with friction 0 and the undrained adhesion as cohesion; or nothing, where the joint is elastic."},
+     "Interface elements with two pairs of nodes approximate a curve, such as the outside of a pipe. A node "
+     "that slides along one chord opens or closes the next, so that a smooth pipe acts as if it were bonded. "
+     "Thrust and moment are then those of a bonded pipe.",
+     "Use interface6 with quad8 and beam3, with the mid-side nodes on the curve (docs/manual/structures.md). "
+     "If the joint does not slip under the loads of the deck, nothing needs to be done."},
+    {"S349", "a joint beside undrained soil carries its water pressure",
+     "If the pore pressure is given, the traction of a joint is effective. The excess pressure of an undrained "
+     "group is not given but follows from its change of volume, and is not subtracted. The traction is then "
+     "the total one, and friction acts on water and grains together.",
+     "Give the joint friction 0 and the undrained adhesion as cohesion. If the joint is elastic, nothing needs "
+     "to be done."},
     {"S350", "the weight of a plate is its unit weight times its thickness",
-     "Of the law plate the unit weight is a force per volume, as for soil: 25 kN/m^3 and 0.5 m weigh 12.5 "
-     "kN/m^2. "
-     "Earlier versions took the unit weight itself as the weight of a unit of area.",
-     "Nothing, where the card gives a force per volume. In a deck of an earlier version, divide the number by "
-     "the "
-     "thickness. Sections state a weight per length and width, bars that of one bar per length "
-     "(docs/manual/structures.md)."},
+     "The unit weight of the law plate is a force per volume, as that of soil: 25 kN/m^3 and 0.5 m give 12.5 "
+     "kN/m^2. Earlier versions used the unit weight itself as the weight per area.",
+     "If the card gives a force per volume, nothing needs to be done. In a deck for an earlier version, divide "
+     "the number by the thickness. The weight of a section is per length and width, that of a bar is that of "
+     "one bar per length (docs/manual/structures.md)."},
     {"S351", "prestress that a structure can't carry",
-     "The initial card gives a force that the law of the bars or beams does not allow: compression in an "
-     "anchor that "
-     "carries tension alone, tension in a strut that carries compression alone, or more than the strength.",
-     "Initial values are compression positive and count for each unit of width: -150/2.5 for anchors that are "
-     "pulled "
-     "with 150 every 2.5. Change the sign, the size or the law."},
+     "The law of the bars or beams does not allow the force of the initial card. The card gives compression to "
+     "an anchor that carries tension alone, tension to a strut that carries compression alone, or more than "
+     "the strength.",
+     "Initial values are positive in compression and are per unit width: write -150/2.5 for anchors with a "
+     "tension of 150 every 2.5. Change the sign, the size or the law."},
     {"S352", "strips meet on the axis of symmetry",
-     "A beam without hoop bending stiffness is one of many strips side by side. Where they meet on the axis "
-     "their width is nothing: "
-     "with the rotation held there, as symmetry wants it, the moment grows as 1/r, and its value at the axis "
-     "is set by the size of "
-     "the elements.",
-     "Give a plate its thickness (law plate), or a section its hoop stiffnesses. Spokes that end on a hub are "
-     "held at its radius."},
+     "A beam without bending stiffness in the hoop direction is one of many strips side by side. On the axis, "
+     "where they meet, the strips have no width. If the rotation is held there, as symmetry requires, the "
+     "moment grows as 1/r, and its value at the axis depends on the size of the elements.",
+     "Give a plate its thickness (law plate), or a section its hoop stiffnesses. Support spokes that end on a "
+     "hub at the radius of the hub."},
     {"S355", "4-node elements dilate",
      "A group of 4-node quadrilaterals without an enhanced strain has a law whose plastic flow increases the "
-     "volume. These elements "
-     "cannot follow that flow and resist too long. On a slope of 1:2 with phi = psi = 20 degrees the factor of "
-     "safety is 1.52 with b-bar and 1.58 with full integration. 8-node elements give 1.39, and 1.36 to 1.37 is "
-     "right. With psi = 5 degrees the error is the same. docs/theory/accuracy.md has the measurement.",
+     "volume. These elements can't follow that flow and resist too long. On a slope of 1:2 with phi = psi = 20 "
+     "degrees, the factor of safety is 1.52 with b-bar and 1.58 with full integration. 8-node elements give "
+     "1.39, and 1.36 to 1.37 is right. With psi = 5 degrees the error is the same. docs/theory/accuracy.md has "
+     "the measurement.",
      "Use quad4 enhanced (--formulation 5) or 8-node elements (--element quad8). With a dilation angle of 0 "
-     "(sagefe "
-     "safety --dilation none) b-bar elements are about 3 % high."},
+     "(sagefe safety --dilation none) b-bar elements are about 3 % high."},
     {"S356", "a unit weight is not one of soil",
-     "In the deck's units the number is less than a quarter or more than 3.5 times the unit weight of water "
-     "(8.5 times for a law without strength, which may be steel). Likely it is a density (kg/m^3, t/m^3), or "
-     "in "
-     "the unit of another program.",
-     "Give the unit weight in the deck's force per cubed length: 18 to 21 kN/m^3, 115 to 130 lb/ft^3 or 0.066 "
-     "to 0.075 lb/in^3. Correct the units card where that is wrong."},
+     "The number is less than a quarter or more than 3.5 times the unit weight of water in the deck's units; "
+     "for a law without strength, which may be steel, the limit is 8.5 times. Probably it is a density "
+     "(kg/m^3, t/m^3), or has the unit of another program.",
+     "Give the unit weight in force per volume of the deck's units: 18 to 21 kN/m^3, 115 to 130 lb/ft^3 or "
+     "0.066 to 0.075 lb/in^3. If the units card is wrong, correct it."},
     {"S358", "a modulus or cohesion is not one of soil",
-     "As a multiple of the atmosphere in the deck's units the number is far from what soils have. These are a "
-     "modulus below 0.5 or, for a law with strength, above 100000 times; a cohesion above 10 times, or without "
-     "friction below 0.005 times. Likely it is in another unit (Pa, MPa).",
-     "Give moduli and strengths in the stress unit of the units card. A warning for rock, concrete or a peat "
-     "is "
-     "no mistake of the deck."},
+     "sagefe compares the number with the atmospheric pressure in the deck's units. It reports a modulus below "
+     "0.5 times that pressure and, for a law with strength, one above 100000 times. It reports a cohesion "
+     "above 10 times and, without friction, one below 0.005 times. Probably the number is in another unit (Pa, "
+     "MPa).",
+     "Give moduli and strengths in the stress unit of the units card. For rock, concrete or peat the number "
+     "can be right."},
     {"S360", "water levels differ between neighbours",
-     "Two groups that share edges have different phreatic lines (or one is dry, or has r_u or pressures of "
-     "nodes), and no structure or joint "
-     "lies "
-     "between them. The pore pressure jumps there, and the difference acts as a force that no ground water "
-     "has.",
-     "Give both groups one line that falls from level to level, put the wall or joint between them that holds "
-     "the water back, or compute the heads by elements of flow."},
-    {"S361", "what pore water does in a stage is unknown, or no element has any",
-     "The field pore_water of a stage card is 0 (excess pressures stay as they are), 1 (undrained: no water "
-     "moves) or 2 "
-     "(consolidation). Codes 1 and 2 need elements that solve for the pressure of pore water.",
+     "Two groups that share edges have different phreatic lines, and no structure or joint lies between them. "
+     "(One of them may also be dry, or have r_u or given pressures.) The pore pressure jumps at these edges, "
+     "and the difference acts as a force that no ground water exerts.",
+     "Give both groups one line that descends from level to level, put the wall or joint that retains the "
+     "water between them, or compute the heads by elements of flow."},
+    {"S361", "a code for pore water is unknown, or no element has pore water",
+     "The field pore_water of a stage card is 0 (excess pressures do not change), 1 (undrained: no water "
+     "moves) or 2 (consolidation). Codes 1 and 2 need elements that solve for the pressure of pore water.",
      "Correct the code, or use quad8p4, quad9p4 or tri6p3 with a second material pore_flow "
      "(docs/manual/consolidation.md)."},
     {"S362", "the division of a stage's time is out of range",
-     "theta lies between 0.5 (Crank-Nicolson) and 1 (backward Euler). The ratio of an increment to the one "
-     "before lies "
-     "between 0.01 and 100.",
-     "Correct the field; blank is 1."},
+     "theta lies between 0.5 (Crank-Nicolson) and 1 (backward Euler). The ratio of an increment to the "
+     "previous one lies between 0.01 and 100.",
+     "Correct the field. Blank is 1."},
     {"S363", "the first step of a consolidation stage is short",
-     "A step below h^2 / (6 theta c) gives excess pressures that oscillate from node to node beside a drained "
-     "node "
-     "where a pressure starts to fall. h is the size of quadratic elements there, c their coefficient of "
-     "consolidation. "
-     "They are those of the discrete equations, and die out.",
-     "Make the mesh finer at the drained node, or the first step longer; a grading above 1 serves the later "
-     "ones."},
+     "Beside a drained node, where a pressure starts to fall, a step below h^2 / (6 theta c) gives excess "
+     "pressures that oscillate from node to node. Here h is the size of the quadratic elements and c their "
+     "coefficient of consolidation. The oscillations belong to the discrete equations and decay with time.",
+     "Make the mesh finer at the drained node, or the first step longer. A grading above 1 makes the later "
+     "steps longer still."},
     {"S364", "excess pressures oscillate",
-     "A corner has a higher excess pressure than all corners around it, and one of those a lower one than all "
-     "around it, "
-     "by more than 1 % of the largest. Pressures of the soil have no such waves.",
-     "Make the mesh finer at drained nodes, or the first steps longer; theta = 1 damps what theta = 0.5 "
-     "keeps."},
+     "A corner has a higher excess pressure than all corners around it, and one of these has a lower one than "
+     "all around it. The difference is more than 1 % of the largest pressure. Pressures in soil have no such "
+     "waves.",
+     "Make the mesh finer at drained nodes, or the first steps longer. theta = 1 damps oscillations that theta "
+     "= 0.5 keeps."},
     {"S365", "water can't leave",
-     "No excess pressure is held in a part of the model, so that all water stays within it: the pressures even "
-     "out and "
-     "do not go to zero.",
-     "Hold the excess pressure (unknown excess_pressure, code 1) where water may leave, if that is meant."},
+     "No node in a part of the model has a prescribed excess pressure, so that all its water stays. The "
+     "pressures become equal and do not decrease to zero.",
+     "If water should leave, prescribe the excess pressure where it does (unknown excess_pressure, code 1)."},
     {"S366", "a group has its pore water twice",
-     "A water card makes a group undrained (or drained) whose elements solve for the pressure of their water.",
-     "Leave the card away: stages say whether that water is shut in (field pore_water)."},
+     "A water card makes a group undrained or drained, and the elements of the group already solve for the "
+     "pressure of their water.",
+     "Remove the water card. The field pore_water of each stage defines whether that water can move."},
+
+    // S4: refining, grading and mid-side nodes.
     {"S401", "elements of different degree meet",
-     "One element has nodes inside the common edge, the other has not: the mesh would gape there.",
-     "Give both the same number of nodes an edge; --element quad8 turns all of the mesh."},
-    {"S402", "the mesh can't be refined as asked",
-     "It would have more elements than can be numbered, or its elements have nodes of their own inside "
-     "that a division has no place for.",
-     "A smaller --refine, --grade at corners, or elements of higher degree: docs/manual/accuracy.md."},
+     "One element has a node within the common edge, and the other has not. The mesh would open there.",
+     "Give both elements the same number of nodes on the edge. --element quad8 changes all quadrilaterals of "
+     "the mesh."},
+    {"S402", "the mesh can't be refined so far",
+     "The refined mesh would have more elements than can be numbered, or its elements have inner nodes that "
+     "can't be divided.",
+     "Use a smaller --refine, --grade at corners, or elements of higher degree: docs/manual/accuracy.md."},
     {"S403", "the mesh can't be graded there",
-     "The node of --grade is no corner of an element, does not exist, or (auto) no corner with a "
-     "singular stress was found.",
-     "Name a corner node of an element, or --refine without --grade."},
+     "The node of --grade does not exist or is no corner of an element. Or --grade auto found no corner with a "
+     "singular stress.",
+     "Name a node at the corner of an element, or use --refine without --grade."},
     {"S404", "a support or load can't follow the graded mesh",
-     "It belongs to a node that the graded mesh no longer has; grading moves what lies between corners.",
-     "--refine, which keeps all nodes, or load the edge by a pressure card."},
+     "It belongs to a node that the graded mesh no longer has, because grading moves the nodes between "
+     "corners.",
+     "Use --refine, which keeps all nodes, or load the edge by a pressure card."},
     {"S405", "a report loses nodes by grading",
-     "Some of its nodes are no nodes of the graded mesh; the mean is taken of those left.",
-     "--refine keeps all of them. Where the platen is rigid the mean is the same."},
+     "Some of its nodes are no nodes of the graded mesh. The report is the mean over the remaining ones.",
+     "Use --refine, which keeps all of them. If the platen is rigid, the mean is the same."},
     {"S406", "an answer that does not converge with the mesh",
-     "A load on one node, and the stress at a singular corner, grow without limit as elements get "
-     "smaller: that number has no true value to come near to.",
-     "Use a pressure over a width; read stresses a little away from the corner, or sums such as a "
-     "platen's force."},
+     "The displacement under a load on one node, and the stress at a singular corner, grow without limit as "
+     "the elements become smaller. Such a number has no true value.",
+     "Use a pressure over a width. Read stresses at some distance from the corner, or sums such as the force "
+     "on a platen."},
     {"S407", "the mesh stays as it is",
      "No coarser mesh of quadrilaterals has the same bodies, supports and loads.",
-     "Nothing: the run uses the deck's own mesh."},
-    {"S408", "the wanted certainty was not reached",
-     "--converge made meshes up to its limit of unknowns or of time, and the reports still change by "
-     "more than the tolerance. Singular corners, a limit load or a point load make numbers converge "
-     "slowly or not at all.",
-     "Read the last column: it says how certain each number is. --max-dofs or --max-seconds further, "
-     "--grade auto, elements of higher degree, or --follow with a number that does converge."},
+     "Nothing needs to be done: the run uses the deck's own mesh."},
+    {"S408", "the required certainty was not reached",
+     "--converge refined the mesh up to its limit of unknowns or time, and the reports still change by more "
+     "than the tolerance. With singular corners, a limit load or a point load, numbers converge slowly or not "
+     "at all.",
+     "The last column gives the certainty of each number. Increase --max-dofs or --max-seconds, use --grade "
+     "auto or elements of higher degree, or choose with --follow a number that converges."},
     {"S409", "refining makes a large model",
-     "Each --refine makes four elements of one; memory and time grow at least as fast. The message "
+     "Each --refine divides every element into four. Memory and time grow at least as fast. The message "
      "estimates the memory.",
      "--grade at corners, or 8-node elements, give the same accuracy with far fewer elements."},
     {"S410", "the error of the mesh is not estimated",
      "Elements of the model lock near Poisson's ratio 1/2, or where soil is undrained. Their stresses are "
-     "smooth and "
-     "wrong, and the estimate of --error sees only what is not smooth.",
-     "Elements that do not lock: 8-node quadrilaterals (reduced), quad4 enhanced, or those of high degree."},
+     "smooth but wrong, and --error detects only an error that makes stresses rough.",
+     "Use elements that do not lock: 8-node quadrilaterals (reduced), quad4 enhanced, or elements of high "
+     "degree."},
 
     // S5: the analysis.
     {"S501", "no equilibrium",
-     "The increment found no state in which stresses balance the loads, however small it was made. "
-     "Mostly a limit load was reached: more can't be carried by the strength there is. Else the "
-     "increments are too large for a law that changes much, or joints open and close to and fro.",
-     "The message says up to which load equilibrium held, where it failed and what to try. At a limit "
-     "load that is the answer; drive the body by displacements to go on. Otherwise more increments, or "
-     "method 3 (dogleg)."},
+     "sagefe found no state in which the stresses balance the loads, however small it made the increment. Most "
+     "often the model has reached a limit load: its strength can carry no more. Otherwise the increments are "
+     "too large for a strongly nonlinear law, or joints open and close in turn.",
+     "The message gives the load up to which there is equilibrium, where it fails and what to try. A limit "
+     "load is the answer; to go beyond it, prescribe displacements in place of loads. Otherwise use more "
+     "increments, or method 3 (dogleg)."},
     {"S502", "the stiffness matrix is singular",
-     "A motion costs no force: a body is not held, hangs on joints that are open, has no stiffness left "
-     "at collapse, or its stiffnesses differ by more than 16 digits. The message names node and "
-     "direction.",
-     "Add supports or interfaces for that part, make very stiff bodies less stiff, or end the loading "
-     "before."},
+     "A part of the model can move without any force. It has no support, is held only by open joints, has no "
+     "stiffness left at collapse, or stiffnesses in the model differ by more than a factor of 1e16. The "
+     "message names a node and a direction.",
+     "Add supports or interfaces for that part, reduce the stiffness of very stiff bodies, or end the loading "
+     "earlier."},
     {"S503", "a law can't start from its initial stress",
-     "The law needs another state at the start: a hyperbolic law compression, a law with strength a "
-     "stress that it can carry.",
-     "Give an initial card with a small confining stress, or a cohesion. sagefe drive and docs/theory "
-     "show each law's range."},
-    {"S504", "the solver lost its digits or gave up",
-     "Growth of numbers, or terms that are no numbers, spoilt the factorisation. Stiffnesses that differ "
-     "by 1e12 and more, or a collapse, are the usual reasons.",
-     "Another solver (--solver, sagefe list solvers), or stiff parts only 1e3 to 1e6 times as stiff as "
-     "the soil; interface stiffnesses likewise."},
+     "The law needs another initial state: a hyperbolic law needs compression, and a law with strength needs a "
+     "stress within this strength.",
+     "Give an initial card with a small confining stress, or a cohesion. sagefe drive and docs/theory show the "
+     "range of each law."},
+    {"S504", "the solver lost its accuracy or failed",
+     "The factorisation is inaccurate, because entries of the matrix grew during elimination or are not "
+     "numbers. The usual reasons are stiffnesses that differ by a factor of 1e12 or more, and collapse.",
+     "Use another solver (--solver, sagefe list solvers). Make stiff parts and interfaces only 1e3 to 1e6 "
+     "times as stiff as the soil."},
     {"S505", "a part of the program can't be loaded",
-     "The library solvers and the writer of result files are modules beside the program; one is not "
-     "installed, or its libraries are missing.",
-     "Install the program whole (cmake --install), or the packages that the message names. Built-in "
+     "The library solvers and the writer of result files are modules beside the program. One of them is not "
+     "installed, or lacks its libraries.",
+     "Install the whole program (cmake --install), or the packages that the message names. The built-in "
      "solvers work without them."},
-    {"S506", "kernels or threads can't be had",
-     "--kernels asks for instructions that this machine or build lacks.",
-     "Leave out --kernels: the fastest that work are taken."},
+    {"S506", "these kernels are not available",
+     "--kernels selects processor instructions that this machine or build lacks.",
+     "Omit --kernels: sagefe then uses the fastest kernels that work."},
     {"S507", "a result is no number",
-     "An undefined or infinite number would have been written: the model's numbers are so large or small "
-     "that they overflow.",
+     "sagefe would have written an undefined or infinite number. The numbers of the model are so large or "
+     "small that they overflow.",
      "Use units in which stresses and lengths are between 1e-6 and 1e6."},
-    {"S508", "there is not enough memory", "The model does not fit into this machine's memory.",
-     "Fewer elements (--grade in place of --refine), another solver (multifrontal needs less than the "
-     "profile solver on large meshes), or a larger machine."},
-    {"S510", "a piece of the analysis gave up",
-     "A solver, law or element, perhaps one from outside of this program, says that it can't go on.",
-     "Its own message says why; try --solver with another one to see whether the solver is the reason."},
+    {"S508", "there is not enough memory", "The model does not fit into the memory of this machine.",
+     "Use fewer elements (--grade in place of --refine), another solver (on large meshes multifrontal needs "
+     "less memory than the profile solver), or a larger machine."},
+    {"S510", "a part of the analysis failed",
+     "A solver, law or element reported that it can't continue. It may come from a plug-in.",
+     "Read its own message. Use another --solver to see whether the solver is the reason."},
     {"S511", "the run was interrupted",
-     "Ctrl-C, or a request of the system to end, stopped the run. What was complete is on disk; a "
-     "checkpoint was written where one could be.",
-     "sagefe run --restart goes on from the checkpoint; decks that were not begun have to be named "
-     "again."},
+     "Ctrl-C, or a request of the system to end, stopped the run. All complete results are on disk, with a "
+     "checkpoint if one could be written.",
+     "sagefe run --restart continues from the checkpoint. Name the decks that had not started again."},
     {"S512", "the process of a deck was ended",
-     "With --jobs each deck has a process of its own, and this one was killed: by the system for want of "
-     "memory, by a user, or by a fault of the program.",
-     "Run the deck alone to see whether it ends again; fewer --jobs need less memory at a time. A fault "
-     "of the program is worth a report with the deck."},
+     "With --jobs each deck has its own process, and this one was killed. The system was out of memory, a user "
+     "ended it, or the program has a fault.",
+     "Run the deck alone to see whether it happens again. Fewer --jobs need less memory at a time. Please "
+     "report a fault of the program with the deck."},
     {"S513", "a fault of the program or of a library",
-     "Something happened that the program does not foresee: the message is that of a library or of a check "
-     "within the program. The deck may be right.",
-     "Try another solver (--solver) and one thread (--threads 1), to see what it depends on. A report with the "
-     "deck, the command and the message helps to mend it."},
+     "A library, or a check within the program, reported something that the program does not expect. The deck "
+     "may be right.",
+     "Try another solver (--solver) and one thread (--threads 1) to narrow it down. Please report it with the "
+     "deck, the command and the message."},
     {"S515", "the safety factor is not proved",
-     "The search for the factor ended without the bracket that was requested. No factor is stable, every "
-     "factor is stable, or the upper end proves nothing: no equilibrium was found, but the ground does not go "
-     "on moving. There the iterations may have failed and not the soil.",
-     "Read the reasons of both ends. Move --smallest or --largest; for an end that is not proved more "
-     "--iterations and --cuts, --from anew, or --dilation reduced with a dilation angle nearer to friction."},
+     "The search ended without the bracket that was requested. No factor is stable, every factor is stable, or "
+     "the upper end proves nothing: no equilibrium was found, but the ground does not continue to move. Then "
+     "the iterations may have failed and not the soil.",
+     "Read the reasons of both ends, and change --smallest or --largest. For an end that is not proved, use "
+     "more --iterations and --cuts, --from anew, or --dilation reduced with a dilation angle closer to "
+     "friction."},
     {"S520", "the initial stress is outside the yield surface",
-     "At some points the stated stress is more than the strength allows. The first increment sheds it to "
-     "the neighbours: the state the run starts from is another one than stated.",
-     "Lower the initial shear (K0 nearer to 1), raise the strength, or accept it: the listing shows the "
-     "stresses after the first increment."},
+     "At some points the initial stress exceeds the strength. In the first increment it moves to the "
+     "neighbours, so that the run starts from another state than the deck states.",
+     "Lower the initial shear (K0 closer to 1) or raise the strength. If the change is acceptable, nothing "
+     "needs to be done: the listing shows the stresses after the first increment."},
     {"S521", "displacements are beyond small strains",
-     "The program takes strains as small and the geometry as it was at the start. Displacements of this "
-     "size change the geometry: the numbers describe something else.",
-     "Read results up to a displacement of about a tenth of the body; smaller loads."},
+     "The run assumes small strains and the initial geometry. Displacements of this size change the geometry, "
+     "so that the results do not describe the real problem.",
+     "Use the results up to a displacement of about a tenth of the body, apply smaller loads, or run the deck "
+     "with large strain (docs/manual/large_strain.md)."},
     {"S522", "points are at the apex or cut off in tension",
-     "There the law has little shear strength left or none, and the stress depends on how tension is treated "
-     "(to the "
-     "apex, cut off, stress free). The message counts them apart, with points of any status whose tangent in "
-     "the last "
-     "iteration has no stiffness in any direction. Several states may be in equilibrium there.",
-     "Look where they are (--points). At a free surface they mostly do no harm; compare with another "
-     "tension limit or apex code."},
+     "At these points the law has little or no shear strength, and the stress depends on the treatment of "
+     "tension (to the apex, cut off, stress free). The message counts each kind, and also the points whose "
+     "tangent in the last iteration has no stiffness in any direction. Several states may be in equilibrium "
+     "there.",
+     "Find the points with --points. At a free surface they are mostly harmless. Compare with another tension "
+     "limit or apex code."},
     {"S523", "the answer may not be the only one",
-     "The acoustic tensor has lost its positive determinant at yielding points: shear bands may form, whose "
-     "width is that of an element. Where the strength falls with strain (a law that softens), peak loads and "
-     "what comes behind them depend on mesh and steps: a warning. Where it does not, flow is merely not "
-     "associated (dilation below friction), which most sands are: a note, in the listing and with -v.",
-     "Compare two meshes (--refine 1) and twice the increments. Dilation equal to friction bounds the "
-     "load from above."},
-    {"S524", "the sums of forces are out of balance",
-     "Loads and reactions of the whole model differ by more than rounding: digits were lost in the "
-     "solution.",
-     "Look at S525 and S504: stiffness ratios, nu near 1/2. Another solver can tell."},
+     "At yielding points the determinant of the acoustic tensor is no longer positive, so that shear bands as "
+     "wide as one element may form. If the law softens (its strength decreases with strain), the peak load and "
+     "all that follows depend on the mesh and the steps. sagefe then warns. If the flow is only non-associated "
+     "(dilation below friction), as in most sands, it prints a note in the listing and with -v.",
+     "Compare two meshes (--refine 1) and twice the increments. With dilation equal to friction the load is an "
+     "upper limit."},
+    {"S524", "loads and reactions do not balance",
+     "Loads and reactions of the whole model differ by more than rounding. The solution lost accuracy.",
+     "See S525 and S504 for the reasons: stiffness ratios, and nu near 1/2. Compare with another solver."},
     {"S525", "digits are lost",
-     "So stiff parts stand beside so soft ones, or nu is so near to 1/2, that of 16 digits only a few "
-     "are left; the message says how many.",
-     "Less stiff stiff parts (1e3 to 1e6 times), nu of 0.499 with B-bar. Where four digits are enough "
-     "nothing is to be done."},
+     "Very stiff parts are connected to very soft ones, or nu is very close to 1/2. Of 16 digits only a few "
+     "are accurate; the message gives their number.",
+     "Make stiff parts only 1e3 to 1e6 times as stiff as soft ones, and use nu = 0.499 with b-bar. If four "
+     "digits are enough, nothing needs to be done."},
     {"S526", "increments are too long for the law",
-     "The stiffness of a law (hyperbolic, Cam clay) changes within an increment; even divided into 64 parts it "
-     "is "
-     "too long to follow, and twice the increments would give something else by more than 1 percent.",
-     "More increments in this stage: compare with twice as many until nothing changes."},
-    {"S527", "a part hangs on open interfaces",
-     "All interfaces around the part are open: nothing but a remnant of stiffness says where it stands. "
-     "Its displacements mean nothing from then on.",
-     "Hold the part by fixities, or read the run up to here: that is where the joint opened."},
+     "The stiffness of a law (hyperbolic, Cam clay) changes within an increment. Even in 64 parts the "
+     "increment is too long to be accurate. Twice the increments would change the result by more than 1 "
+     "percent.",
+     "Use more increments in this stage. Compare with twice as many until the results do not change."},
+    {"S527", "a part is held by open interfaces",
+     "All interfaces around the part are open, and only a remnant of stiffness determines its position. From "
+     "then on its displacements have no meaning.",
+     "Hold the part by fixities, or use the results up to the point at which the joint opened."},
     {"S528", "the first stage starts out of balance",
-     "The initial stresses are not in equilibrium with weights, loads and supports of the first stage, "
-     "and the first increment lets the difference go: bodies move before anything is loaded.",
-     "Where the motion matters, correct initial stress, K0 or weights, or add the gravity or pressure "
-     "that belongs to the stress. For a start with no stress at all nothing is to be done."},
-    {"S529", "exits of water are switched to and fro",
-     "At an exit either the head stands at its limit and water leaves, or it stands lower and nothing flows. "
-     "At the nodes that the message names one leads to the other again and again, so that no answer was found.",
-     "Smaller elements near the end of the wet face, or fewer exits, where it is known that they stay dry."},
-
+     "The initial stresses are not in equilibrium with the weights, loads and supports of the first stage. The "
+     "first increment releases the difference, so that bodies move before a load acts.",
+     "If this motion matters, correct the initial stress, K0 or the weights, or add the gravity or pressure "
+     "that balances the stress. For a start without any stress nothing needs to be done."},
+    {"S529", "exits of water switch between two states",
+     "At an exit either the head is at its limit and water leaves, or the head is lower and nothing flows. At "
+     "the nodes of the message each state leads to the other, so that there is no answer.",
+     "Use smaller elements near the end of the wet face. Remove exits that are known to stay dry."},
     {"S530", "the correct response of a triaxial report is not known",
-     "The report drives one point of the specimen's law along the strains of the mesh. From the increment that "
-     "the "
-     "message names on no state of that point was found, so that correct values and ratio are blank. The "
-     "message says "
-     "why: mostly a strength that falls more steeply than the point unloads, or a cell pressure beyond the "
-     "strength.",
-     "More increments; for laws that soften a lower rate of softening. Measured values do not depend on it."},
+     "The report applies the strains of the mesh to one point of the specimen's law. From the increment in the "
+     "message on, it found no state of that point, so that correct values and ratio are blank. Most often the "
+     "strength decreases faster than the point unloads, or the cell pressure exceeds the strength.",
+     "Use more increments, or a slower softening. The measured values do not depend on it."},
     {"S531", "the correct test of a triaxial report starts elsewhere than the mesh",
-     "The correct test is that of one point, which starts from the stress and the history of the specimen. "
-     "Here the "
-     "specimen is not uniform at the start of the report's stage.",
-     "Begin the report in the stage in which the specimen is still uniform, or read the ratio with that in "
-     "mind."},
-
+     "The correct test is that of one point, which starts from the stress and history of the specimen. Here "
+     "the specimen is not uniform when the stage of the report begins.",
+     "Start the report in a stage in which the specimen is still uniform, or use the ratio with caution."},
     {"S537", "a free surface is blurred",
-     "Soil of law darcy_free_surface falls dry within a ramp of the pressure head, as high as an element where "
-     "the "
-     "deck does not say. That is much of what is wet here: the surface is where the ramp is, and the discharge "
-     "is in "
-     "error by about its height.",
-     "Smaller elements (--refine 1), or a smaller ramp in the material. Compare the discharge of both."},
+     "Soil of the law darcy_free_surface becomes dry within a ramp of pressure head. The default height of the "
+     "ramp is that of an element. Here the ramp is a large part of all wet soil. The surface lies somewhere "
+     "within the ramp, and the discharge has an error of about its height.",
+     "Use smaller elements (--refine 1) or a smaller ramp in the material. Compare the discharge of both."},
     {"S538", "dry soil carries water",
-     "Above the free surface the soil keeps a part of its permeability, so that heads are determined there. "
-     "Here what "
-     "flows there is no small part of the whole: thin wet soil under much dry soil, or a part that is too "
-     "large.",
-     "A smaller 'least' in the material (1e-4), or leave the soil out that stays dry."},
+     "Above the free surface the soil keeps a part of its permeability, so that heads have values there. Here "
+     "the flow above the surface is not negligible: little wet soil lies under much dry soil, or the part is "
+     "too large.",
+     "Use a smaller 'least' in the material (1e-4), or remove the soil that stays dry."},
     {"S539", "no free surface was found",
-     "The free surface is looked for with soil that falls dry over a great height at first, then over less and "
-     "less "
-     "down to what is meant. At some height no heads were found from those before.",
-     "A larger ramp or a larger 'least' in the material, smaller elements, more iterations in the stage. Look "
-     "whether "
-     "the soil may let water out where it must (exits, code 2)."},
+     "The search starts with soil that becomes dry over a large height. It then reduces the height to that of "
+     "the material. At some height no heads were found from those before.",
+     "Use a larger ramp or a larger 'least' in the material, smaller elements, or more iterations in the "
+     "stage. Check that water can leave the soil (exits, code 2)."},
     {"S540", "the flow has no stream function",
-     "What flows between two places is one number only where nothing comes in or goes out inside the flow. "
-     "Around a well, a drain or a held head inside, and around a hole whose edge takes water, each turn adds "
-     "what is taken. "
-     "The field is left blank in that part of the flow.",
-     "Take discharge through lines of nodes (report 4), or --picture flow_net, whose lines jump along a line."},
-
+     "The flow between two places is one number only if no water enters or leaves between them inside the "
+     "flow. Around a well, a drain, a prescribed head inside, or a hole that accepts water, the value grows "
+     "with each turn. The field is blank in that part of the flow.",
+     "Use the discharge through lines of nodes (report 4). Or use --picture flow_net, whose lines jump along "
+     "one line."},
     {"S541", "the rule of a sloping phreatic line",
-     "The pore pressure at a depth below a phreatic line is hydrostatic only where the line is level. In "
-     "seepage "
-     "along a slope, whose lines of equal head stand at right angles to it, it is cos^2 of the slope times "
-     "that: 12 % "
-     "less at 20 degrees. The note says which of the two the deck has.",
-     "Value 1 of the water card: 0 counts the vertical depth (the safe side below a slope), 1 multiplies it by "
-     "cos^2 "
-     "of the line's slope. Flow elements (kind 4) solve for the pressure instead."},
+     "Below a level phreatic line the pore pressure is hydrostatic. In seepage along a slope the lines of "
+     "equal head are at right angles to the slope. The pressure is then smaller by the factor cos^2 of the "
+     "slope: 12 % less at 20 degrees. The note says which of the two the deck uses.",
+     "Value 1 of the water card chooses: 0 is the vertical depth (the safe side below a slope), 1 multiplies "
+     "it by cos^2 of the line's slope. Flow elements (kind 4) solve for the pressure."},
     {"S542", "an exit gradient without bound",
-     "Where an impervious edge meets one with given heads at more than a right angle, or the edge of the flow "
-     "turns "
-     "inwards, the velocity has no bound: the gradient that is computed there grows with every refinement. "
-     "Reports of "
-     "lines through such a node leave the largest gradient blank.",
-     "End the line before that node, and judge the exit by the mean gradient over a length that matters "
-     "(Terzaghi: half "
-     "of the embedment), or by the force on it."},
-
+     "The velocity has no bound at a node where an impervious edge meets one with given heads at more than a "
+     "right angle, or where the edge of the flow turns inwards. The computed gradient grows with every "
+     "refinement. A report of a line through such a node leaves the largest gradient blank.",
+     "End the line before that node. Judge the exit by the mean gradient over a relevant length (Terzaghi: "
+     "half of the embedment), or by the force on it."},
     {"S550", "steps were found by dynamic relaxation",
-     "Where the shortest step of Newton's method finds no equilibrium, the supports move on by a small elastic "
-     "step, and the ground moves until it comes to rest. The rest is an equilibrium to the tolerance of the "
-     "stage, "
-     "with the history of that motion. Where flow is not associated there may be other equilibria.",
-     "Nothing is to be done. More increments, and a second mesh, show how far the answer depends on the path. "
-     "A "
-     "dilation angle nearer to friction makes it unique."},
+     "Newton's method found no equilibrium even with the shortest step. sagefe then moved the supports on by a "
+     "small elastic step and let the ground move until it came to rest. The state of rest is an equilibrium "
+     "within the tolerance of the stage, and its history is that of this motion. If the flow is "
+     "non-associated, there may be other equilibria.",
+     "Nothing needs to be done. More increments, and a second mesh, show how much the answer depends on the "
+     "path. With a dilation angle closer to friction it depends less."},
     {"S551", "an element for small strain alone",
-     "Large strain computes every group in the place that it has moved to. Solids of few nodes without "
-     "enhanced strain can do that. Interfaces, structures, elements of flow and coupled elements cannot.",
-     "Take one of the elements or formulations that the message lists, or small strain."},
+     "Large strain computes every element at its present position. Solid elements of few nodes without "
+     "enhanced strain can do that. Interfaces, structures, elements of flow and coupled elements can't.",
+     "Use one of the elements or formulations that the message lists, or small strain."},
     {"S552", "a law for small strain alone",
-     "Large strain gives a law Kirchhoff stress and increments of the elastic logarithmic strain. The law must "
-     "be isotropic, and its stress must have an elastic strain. Laws that follow increments of the total "
-     "strain, and laws that change by point or stage, have none.",
-     "Take an isotropic elastic or elastic-plastic law, or small strain."},
+     "Large strain gives a law the Kirchhoff stress and increments of the elastic logarithmic strain. The law "
+     "must be isotropic, and its stress must follow from an elastic strain. Laws that use increments of the "
+     "total strain, and laws that change with point or stage, can't do that.",
+     "Use an isotropic elastic or elastic-plastic law, or small strain."},
     {"S553", "a part of the model for small strain alone",
      "Pore water, stages that set displacements to zero, bounds and searches for a factor of safety assume "
-     "that "
-     "the model keeps the shape of its mesh.",
-     "Leave the part out, or take small strain."},
+     "that the model keeps its shape.",
+     "Remove this part, or use small strain."},
     {"S554", "which stress and strain large strain prints",
-     "Stresses are Cauchy stresses: force over present area. Strains are logarithmic (Hencky) strains of the "
-     "left stretch, since the group was activated. Edge pressures stay normal to the moved edge and act on its "
-     "present length. Point forces and weights keep their direction and their size.",
-     "Nothing is to be done. Forces over the first area are nominal stresses: reports of nodes give forces."},
+     "Stresses are Cauchy stresses, which are forces per present area. Strains are logarithmic (Hencky) "
+     "strains of the left stretch since the activation of the group. Edge pressures stay normal to the moved "
+     "edge and act on its present length. Point forces and weights keep their direction and size.",
+     "Nothing needs to be done. For nominal stresses (force per initial area) use the forces in the reports of "
+     "nodes."},
     {"S555", "an element turns inside out",
-     "The step that failed moves a point or a corner of the element through one of its sides. At large strain "
-     "that is a common end: beside a rough platen the free side rolls onto the platen, and the corner folds. "
-     "The message names the element and the corner with the least share of its first area.",
-     "Smaller increments help if the steps were large. A mesh with the corner cut or rounded, or with larger "
-     "elements at the corner, goes further. A fold that is real needs contact, which the model does not have."},
-
+     "In the failed step a point or a corner of the element moves through one of its sides. At large strain "
+     "that happens often. For example, the free side of a specimen rolls onto a rough platen and folds the "
+     "corner. The message names the element, and the corner that keeps the smallest share of its initial area.",
+     "If the steps were large, use smaller increments. A mesh with a cut or rounded corner, or with larger "
+     "elements at the corner, goes further. A real fold needs contact, which the model does not have."},
     {"S570", "bounds need plane strain",
-     "sagefe bounds solves the programs of limit analysis in plane strain. Its upper field has no hoop strain "
-     "and its "
-     "lower field no hoop stress.",
+     "sagefe bounds solves the problems of limit analysis in plane strain. Its upper field has no hoop strain "
+     "and its lower field no hoop stress.",
      "Use sagefe run or sagefe safety for the axisymmetric model."},
-    {"S571", "bounds know no structures",
-     "Limit analysis of this program has soil and interfaces. A bar, beam or spring has no place in its stress "
-     "field.",
-     "Remove the structure, or put its force on the ground as a pressure; sagefe safety takes structures."},
+    {"S571", "bounds can't contain structures",
+     "The limit analysis of sagefe has soil and interfaces. Its stress field can't contain a bar, beam or "
+     "spring.",
+     "Remove the structure, apply its force to the ground as a pressure, or use sagefe safety, which accepts "
+     "structures."},
     {"S572", "the law has no bounds",
-     "The theorems of limit analysis need a convex yield condition that does not change. sagefe bounds has "
-     "Mohr-Coulomb, "
-     "Tresca (phi = 0) and Drucker-Prager without tension cut-off in soil, and cohesion with friction in "
-     "interfaces.",
-     "Replace the material by mohr_coulomb with the strength that it has at failure."},
+     "The theorems of limit analysis need a convex yield condition that does not change. sagefe bounds accepts "
+     "Mohr-Coulomb, Tresca (phi = 0) and Drucker-Prager without tension cut-off for soil, and cohesion with "
+     "friction for interfaces.",
+     "Replace the material by mohr_coulomb with its strength at failure."},
     {"S573", "the load is no traction",
-     "A stress field can carry tractions on sides of elements, not a force or a movement at one point: below a "
-     "point "
-     "the ground yields at any load.",
+     "A stress field can carry tractions on sides of elements, but not a force or a movement at one point. "
+     "Below such a point the ground yields at any load.",
      "Use a pressure card, forces on all nodes of the loaded sides, or movements of whole sides."},
-    {"S574", "there is nothing to be bounded",
-     "The chosen stage does not exist, has no soil, or adds nothing that could be multiplied.",
-     "Choose another stage with --stage, or the factor of safety with --of strength."},
+    {"S574", "there is nothing to bound",
+     "The chosen stage does not exist, has no soil, or adds no load that a factor could multiply.",
+     "Choose another stage with --stage, or bound the factor of safety with --of strength."},
     {"S575", "a bound was not found",
-     "One of the two programs ended without a field that passed the check of equilibrium and yield, or of the "
-     "flow rule. "
-     "The message has the reason.",
-     "Bounds on a load exist only where the fixed loads leave a reserve of strength; --of strength bounds the "
-     "factor of "
-     "safety of ground that fails. Another mesh (--elements, --refine) helps where the optimisation ended "
-     "early."},
+     "One of the two optimisations ended without a field that passed its check: equilibrium and yield for the "
+     "lower field, the flow rule for the upper field. The message gives the reason.",
+     "A load has bounds only if the ground is stable under the fixed loads alone. If it is not, use --of "
+     "strength for the factor of safety. If the optimisation ended early, try another mesh (--elements, "
+     "--refine)."},
     {"S576", "the mesh does not suit bounds",
      "Both fields need a mesh whose elements meet along whole sides, and interfaces with soil on both sides.",
-     "Divide the elements so that no node lies within a side of another; bond an interface that lies on no "
-     "soil to "
-     "soil."},
+     "Divide the elements so that no node lies within a side of another element. Give an interface soil on "
+     "both sides, and common nodes in place of an interface elsewhere."},
     {"S577", "the pore pressure has no bounds",
-     "Bounds need pore pressures that are given: lines, r_u, values at nodes, or heads of flow elements at the "
-     "start of the stage. Those of elements that solve for the pressure of pore water depend on the load path.",
-     "Mend the stages before, or give the pressures at nodes. In place of consolidation use the undrained "
+     "Bounds need known pore pressures: lines, r_u, values at nodes, or heads of flow elements at the start of "
+     "the stage. The pressures of elements that solve for pore water depend on the load path.",
+     "Correct the earlier stages, or give the pressures at nodes. In place of consolidation use the undrained "
      "strength."},
     {"S578", "finite elements contradict the bounds",
-     "With psi = phi no equilibrium was found at a factor of safety below the lower bound, whose stress field "
-     "is "
-     "in equilibrium. One of the two is wrong.",
+     "With psi = phi the search found no equilibrium at a factor of safety below the lower bound, although the "
+     "stress field of that bound is in equilibrium. One of the two is wrong.",
      "Search with more iterations: sagefe safety DECK --iterations 200. Compare the loads and supports of "
      "both."},
-
     {"S579", "the times of a stage of consolidation do not fit",
-     "The fields time_error, end_degree, end_pressure and output_times of a stage need pore_water 2, values in "
-     "their "
-     "range, and theta blank beside time_error. A stage that ends by degree or pressure changes no load, "
-     "support or "
-     "group: such changes take the whole duration. A history of a support or load of excess_pressure is pairs "
-     "of "
-     "a time and a share of the value, with ascending times.",
-     "Correct the field, or put the load into a stage of its own before the wait "
+     "The fields time_error, end_degree, end_pressure and output_times need pore_water 2, and values in their "
+     "range. With time_error, theta must be blank. A stage that ends by degree or pressure can't change a "
+     "load, support or group, because such changes need the whole duration. The history of a support or load "
+     "of excess_pressure consists of pairs of a time and a share of the value, in ascending order of time.",
+     "Correct the field, or put the load into a stage of its own before the waiting time "
      "(docs/manual/consolidation.md)."},
     {"S580", "how a stage of consolidation ended",
-     "A stage with end_degree or end_pressure ends behind the first step that reaches it. As a warning: its "
-     "duration "
-     "was over before.",
-     "Where the duration was too short, make it longer."},
-
-    // S6: results, checkpoints and result files.
+     "A stage with end_degree or end_pressure ends after the first step that reaches it. The message is a "
+     "warning if the duration ended first.",
+     "If the duration was too short, make it longer."},
     {"S585", "initial stresses raise the preconsolidation pressure",
-     "The parameters state a preconsolidation pressure whose surface lies inside the initial stress. At "
-     "those points the surface is enlarged until the stress lies on it: normally consolidated soil.",
-     "Check p_c and the initial stress against each other. An ocr or a pop in place of p_c follows the "
-     "initial stress."},
-    {"S586", "a group of soil has no initial stress, and its law can't start without",
-     "Stiffness and strength of the law grow with the mean stress; without any there is neither.",
-     "Give an initial card of kind 0 or 1 for the group (for a group that is activated later, among the "
-     "cards of that stage)."},
+     "The yield surface of the given preconsolidation pressure lies inside the initial stress. At those points "
+     "sagefe enlarges the surface to the stress: the soil is normally consolidated.",
+     "Compare p_c with the initial stress. An ocr or a pop in place of p_c follows the initial stress."},
+    {"S586", "a group of soil lacks an initial stress that its law needs",
+     "Stiffness and strength of the law increase with the mean stress. Without stress the law has neither.",
+     "Give an initial card of kind 0 or 1 for the group. If the group is activated later, put it among the "
+     "cards of that stage."},
     {"S587", "a note about a law",
-     "Something that follows from the way the law is meant, such as stiffness that is not derived from an "
-     "energy.",
-     "Nothing has to be done; docs/theory has the page of the law."},
+     "The note describes a property of the law, such as a stiffness that does not follow from an energy.",
+     "Nothing needs to be done. docs/theory has the page of the law."},
     {"S590", "a card is not in its columns and was left as it is",
-     "sagefe align found values beside their columns. More than one set of fields can hold them, or none can.",
-     "Write 0 for each blank field of the card, or move the values by hand; sagefe echo shows the columns."},
+     "sagefe align found values beside their columns. Either several sets of fields could hold them, or none.",
+     "Write 0 for each blank field of the card, or move the values by hand. sagefe echo shows the columns."},
+
+    // S6: results, checkpoints and what is made of them.
     {"S600", "the error of steps in time",
-     "Steps of a stage with time_error are chosen by a bound on the error of each. Errors die out as pressures "
-     "do, so "
-     "their sum is a bound on the error at every time of the stage.",
-     "Nothing has to be done. A smaller time_error gives a smaller sum, by more steps."},
+     "A stage with time_error chooses its steps by a bound on the error of each step. Errors decay as the "
+     "pressures do, so that the sum of these bounds is a bound on the error at every time of the stage.",
+     "Nothing needs to be done. A smaller time_error gives a smaller sum, with more steps."},
     {"S601", "a result can't be written",
-     "The disk is full, the folder may not be written to, or there is a folder or a device of that name. "
-     "The message gives the system's reason.",
-     "Free space or choose another folder (-o). sagefe run --restart goes on from the last checkpoint."},
-    {"S602", "a result would take the place of another file",
-     "The file to be written is one that the same command reads, or two of its results would bear the same "
-     "name: "
-     "results are called after the deck's folder or file.",
-     "Another output folder (-o) or another name; decks of one name in commands of their own."},
+     "The disk is full, the user may not write to the folder, or a folder or a device has that name. The "
+     "message gives the system's reason.",
+     "Free space or choose another folder (-o). sagefe run --restart continues from the last checkpoint."},
+    {"S602", "a result would replace another file",
+     "The output file is one that the same command reads, or two results would have the same name. Results "
+     "have the name of the deck's folder or file.",
+     "Choose another output folder (-o) or another name. Run decks of the same name in separate commands."},
     {"S603", "another run is writing there",
-     "A run locks the names of its results. Another process is at work with the same folder and deck "
-     "name, perhaps one in the background.",
-     "Wait for its end, stop it, or choose another folder (-o). The lock goes with its process, also "
+     "A run locks the names of its results. Another process uses the same folder and deck name, perhaps in the "
+     "background.",
+     "Wait until it ends, stop it, or choose another folder (-o). The lock disappears with its process, also "
      "after a crash."},
     {"S604", "the picture can't be converted",
-     "PDF and PNG are made of SVG by the program rsvg-convert, which is not there or failed.",
-     "Install librsvg2-bin, or take --format svg."},
+     "The program rsvg-convert, which makes PDF and PNG from SVG, is missing or failed.",
+     "Install librsvg2-bin, or use --format svg."},
     {"S605", "the library of result files crashed",
-     "HDF5 crashes where an allocation fails, as it does under a limit on memory (ulimit -v, ulimit -d). The "
-     "program lets it write in a process of its own then, and goes on without that file.",
-     "Raise the limit, or run without --result; --vtu needs less memory."},
+     "HDF5 crashes if it can't allocate memory, as under a limit on memory (ulimit -v, ulimit -d). For this "
+     "reason sagefe lets it write in a process of its own, and continues without that file.",
+     "Raise the limit, or run without --result. --vtu needs less memory."},
     {"S606", "a cell of a table is no number",
-     "A column that is drawn has words, nan or inf in some rows: the file is damaged, or the cells are no "
-     "numbers "
-     "on purpose.",
-     "Look at the line that the message names; write the table anew if it should have a number there."},
+     "A column of the plot has words, nan or inf in some rows. Either the file is damaged, or these cells have "
+     "no number on purpose.",
+     "Look at the line that the message names. If it should have a number there, write the table again."},
     {"S607", "a curve of sagefe drive ends early",
-     "The law found no state for the next step, or the test can't be followed with these parameters. The table "
-     "and the plot have the steps before it; the exit code is 3.",
-     "The reason in the message says which step. Smaller steps (--steps) or a shorter path (--to) may help."},
+     "The law found no state for the next step, or the test is impossible with these parameters. The table and "
+     "the plot contain the steps before it; the exit code is 3.",
+     "The message gives the step and the reason. Smaller steps (--steps) or a shorter path (--to) may help."},
     {"S608", "the list of an earlier run's files is damaged",
-     "STEM.files, by which a run removes what an earlier run of the same name left, was cut or changed. Files "
-     "of "
-     "that run may stay beside the new ones.",
+     "A run uses the file STEM.files to remove the results of an earlier run of the same name. That file was "
+     "cut short or changed, so files of the earlier run may remain beside the new ones.",
      "Remove the files that the message names if you do not need them."},
     {"S609", "a table may be cut short",
-     "The last line of a table that a run wrote has no end: the file was copied or written in part.",
+     "The last line of a table of a run has no end. The file was copied or written only in part.",
      "Copy it again, or run the deck again."},
-    {"S610", "a field asked for has no place in the outputs",
-     "The field lives at nodes or points, and no output of this run shows values there.",
-     "Add --nodes, --points or --result, or take the field out of --field."},
-    {"S611", "a law can't have the parameters that its place or stage gives it",
-     "A parameter that grows with depth leaves the range of its law somewhere in the group, or a law with many "
-     "history variables follows another one.",
-     "Change the growth or the level, so that the parameter stays in its range in the whole group."},
+    {"S610", "a requested field is in none of the outputs",
+     "The field has values at nodes or points, and no output of this run shows such values.",
+     "Add --nodes, --points or --result, or remove the field from --field."},
+    {"S611", "place or stage gives a law parameters that it can't have",
+     "A parameter that grows with depth leaves the range of its law somewhere in the group. Or a law with many "
+     "history variables replaces another one.",
+     "Change the growth or the level, so that the parameter is within its range in the whole group."},
     {"S612", "the stress lies outside the yield surface of a new law",
-     "A group goes on with another material, and the stress that it keeps is more than that one carries. At "
-     "the "
-     "start of the stage the stress of such points returns to the surface, as an elastic trial stress would; "
-     "the "
-     "forces that this leaves unbalanced are let go over the increments of the stage.",
-     "Look at the displacements of the stage. If the stress should fit, correct the strength."},
+     "A group continues with another material, which can't carry the present stress. At the start of the stage "
+     "the stress of such points returns to the surface, as an elastic trial stress does. The increments of the "
+     "stage release the forces that become unbalanced.",
+     "Check the displacements of the stage. If the stress should be possible, correct the strength."},
     {"S613", "a node is held by nothing during lock-off",
-     "In the stage of lock-off the force of a bar is held and the bar has no stiffness.",
+     "In the stage of lock-off the force of a bar is constant and the bar has no stiffness.",
      "Support the node at the far end of the bar, or make the free length of the anchor one element."},
     {"S614", "a card about the law of a group does not fit",
-     "Lock-off is for bars and springs in a stage; another material and its group must have laws for the same "
-     "kind "
-     "of element; a parameter must be one of the law's; and the group must be there in the stage.",
-     "Correct the card; `sagefe list materials` shows laws and their parameters."},
+     "Lock-off applies to bars and springs in a stage. Another material needs a law for the same kind of "
+     "element. A parameter must be one of the law's. The group must be active in the stage.",
+     "Correct the card. sagefe list materials shows laws and their parameters."},
     {"S615", "the unit weight does not change with the material",
-     "A group that goes on with another material keeps the weight with which it was loaded.",
+     "A group that continues with another material keeps its initial weight.",
      "Give both materials the same unit weight, or add the difference as a load."},
     {"S616", "a movement has no factor of safety",
-     "Supports that move press on the ground with whatever force it can carry: with less strength that force "
-     "is "
-     "smaller, and the ground never fails.",
-     "Bound the force with --of load; or choose a stage in which loads act, with --stage."},
+     "Supports that move press on the ground with the force that it can carry. With less strength that force "
+     "is smaller, and the ground never fails.",
+     "Bound the force with --of load, or choose a stage with loads by --stage."},
     {"S617", "the value can't differ from place to place",
-     "A random field is of a parameter of a law: every point has its own. Loads, unit weights and elements of "
-     "flow "
-     "have none.",
-     "Leave correlation_length out, or name a parameter: material.NAME.PARAMETER (sagefe list materials)."},
+     "A random field gives each point its own value of a parameter of a law. Loads, unit weights and elements "
+     "of flow can't have one.",
+     "Remove correlation_length, or name a parameter: material.NAME.PARAMETER (sagefe list materials)."},
     {"S620", "sagefe report found no result file",
-     "A page is made of the result file of a run, STEM.h5, and of the tables and the listing beside it. A "
-     "plain "
-     "sagefe run writes no result file.",
-     "Run the deck with sagefe run DECK --report, which writes the page too, or with --result; then give "
+     "A page needs the result file of a run, STEM.h5, with the tables and the listing beside it. sagefe run "
+     "writes no result file unless an option requests it.",
+     "Run the deck with sagefe run DECK --report, which also writes the page, or with --result. Then give "
      "sagefe report the name of the file."},
-    {"S621", "a page lacks something for want of room",
-     "A page holds its data itself and is meant to be sent and opened quickly: about 4 MB a run. Fields, "
-     "states or "
-     "rows that do not fit are left out; the message and the page say which.",
-     "sagefe report --size MB gives the page more room, --field NAME keeps the fields that matter."},
+    {"S621", "a page omits something for lack of space",
+     "A page contains its data, and should be small enough to send and to open quickly: about 4 MB for each "
+     "run. The message and the page list the fields, states or rows that do not fit and are left out.",
+     "sagefe report --size MB gives the page more space. --field NAME keeps the fields that matter."},
     {"S622", "no run of the page has the field",
-     "The name is not one of the fields at nodes or integration points that the runs have, or it is one that "
-     "the "
-     "page makes itself of the stress (mean, deviator, principal stresses).",
-     "Take a name of the list in the message; stress, strain and displacement have all their components."},
+     "No run has a field of this name at nodes or integration points. Or the page itself derives the field "
+     "from the stress (mean, deviator, principal stresses).",
+     "Use a name of the list in the message. stress, strain and displacement have all their components."},
     {"S630", "the checkpoint does not fit",
-     "It is of another deck, other options, other outputs or another build, or files it goes on from "
-     "have been changed since. Going on would mix two runs.",
-     "Run the deck again without --restart; or restore deck, options and program as they were."},
+     "The checkpoint belongs to another deck, other options, other outputs or another build, or files that it "
+     "continues have changed since. To continue would mix two runs.",
+     "Run the deck again without --restart, or restore deck, options and program."},
     {"S631", "the checkpoint can't be read", "The file is damaged, cut short or not a checkpoint.",
      "Run the deck again without --restart."},
-    {"S632", "how a run goes on from what an earlier one left",
-     "There was no checkpoint, or bytes behind it were cut off and are written anew, or a file of an "
-     "earlier run has been changed since and stays where it is.",
-     "Nothing: the results are those of a run without interruption. Remove a file that stays if it is "
-     "not needed."},
+    {"S632", "how a run continues from an earlier one",
+     "There was no checkpoint. Or sagefe cut off bytes behind the checkpoint, which the run writes again. Or a "
+     "file of an earlier run has changed since, and sagefe does not remove it.",
+     "Nothing needs to be done: the results are those of a run without interruption. Remove the remaining file "
+     "if it is not needed."},
     {"S633", "an interrupted run could not stop by itself",
-     "Ten seconds after Ctrl-C, or a request of the system to end, the program had still not stopped: a "
-     "user routine, or the reading or writing of a file, did not return. The program then ended itself with "
-     "exit code 5.",
-     "Look for an endless loop in the user routine, or for a pipe (FIFO) that nobody reads or writes. "
-     "sagefe run --restart goes on from the last checkpoint, if there is one."},
+     "Ten seconds after Ctrl-C, or after a request of the system to end, the program had not stopped. A user "
+     "routine, or the reading or writing of a file, did not return. The program then ended itself with exit "
+     "code 5.",
+     "Look for an endless loop in the user routine, or for a pipe (FIFO) that nobody reads or writes. sagefe "
+     "run --restart continues from the last checkpoint, if there is one."},
     {"S640", "a result file can't be used",
-     "It is no result file of this program, damaged, or of a version in which its deck means another "
-     "model.",
-     "sagefe run DECK --result writes it anew; sagefe plot takes STEM.h5."},
+     "The file is not a result file of sagefe, is damaged, or was written by a version in which its deck means "
+     "another model.",
+     "sagefe run DECK --result writes it again. sagefe plot needs STEM.h5."},
     {"S641", "a table can't be read",
-     "A CSV table needs a line with the names of its columns, and as many cells in each line.",
-     "Take the tables as the program wrote them; a spreadsheet must save them with commas and points."},
+     "A CSV table needs a line with the names of its columns, and as many cells in each line as there are "
+     "names.",
+     "Use the tables as sagefe wrote them. A spreadsheet must save them with commas between cells and points "
+     "in numbers."},
     {"S642", "a column is not in the table",
-     "--xy names columns of the tables; this one is in none of those given.",
-     "Take a name from the list in the message; head -1 TABLE shows them too."},
+     "--xy names columns of the tables. None of the given tables has this one.",
+     "Use a name from the list in the message; head -1 TABLE also shows the names."},
     {"S643", "the result file has no such state",
-     "--at of a plot names a stage and increment, a strain or a load factor that the run did not write; "
-     "or --states of a run asks for one at which no increment ends, and the nearest is written.",
-     "Take one from the list in the message, or sagefe run --result --states for just that state."},
+     "The run did not write the stage and increment, strain or load factor that --at of sagefe plot names. Or "
+     "--states of sagefe run names a state at which no increment ends, and sagefe wrote the nearest.",
+     "Use one from the list in the message, or write this state with sagefe run --result --states."},
     {"S644", "a field is unknown or can't be drawn",
-     "Fields are named as sagefe list fields shows them; histories by the names of the deck's laws. A "
+     "sagefe list fields shows the names of fields. History variables have the names in the deck's laws. A "
      "picture needs a field of nodes or points that some element of the deck has.",
-     "Take a name from the list."},
+     "Use a name from the list."},
     {"S645", "there is nothing to plot",
-     "The model has no interface, the line meets no element, or no field was named.",
-     "Name what is to be drawn; check the coordinates of the line against the mesh."},
+     "The model has no interface, the line crosses no element, or no field was named.",
+     "Name what to draw. Compare the coordinates of the line with the mesh."},
     {"S646", "units differ",
-     "Two runs, or two columns, are in different units. On one axis or one scale they would look alike where "
-     "they "
-     "are not.",
+     "Two runs, or two columns, have different units. On one axis or scale they could not be compared.",
      "Draw them in separate files, or write one of the decks in the units of the other."},
-    {"S650", "a path or test can't be followed as it is given",
-     "The columns of a path file must be those of the law (components of stress or strain, one of the "
-     "two for each), with a number in each cell.",
-     "Correct the file: docs/manual/drive.md lists the columns. A blank cell in a column that is "
-     "controlled is not a zero."},
-    {"S651", "the law to be driven is not given whole",
-     "A law is given by its name and its parameters by name; one is missing, misspelt, or given no "
-     "number.",
-     "sagefe list materials shows names and parameters; --set NAME=VALUE gives each, or --deck takes "
-     "them from a deck."},
-    {"S660", "the fit can't be made as asked",
-     "A fit needs free parameters that the law has, bounds around their start, and curves with the "
-     "driven column first and more points than parameters.",
-     "Correct what the message names; docs/manual/drive.md shows the columns of a curve and the form "
-     "--free NAME=LOW:HIGH."},
+    {"S650", "a path or test can't be followed as given",
+     "The columns of a path file must be those of the law: components of stress or strain, one of the two for "
+     "each component, with a number in each cell.",
+     "Correct the file: docs/manual/drive.md lists the columns. A blank cell in a controlled column is not a "
+     "zero."},
+    {"S651", "the law to be driven is incomplete",
+     "A law needs its name and its parameters by name. One of them is missing, is misspelt, or has no number.",
+     "sagefe list materials shows names and parameters. Give each parameter with --set NAME=VALUE, or use "
+     "those of a deck with --deck."},
+    {"S660", "the fit is impossible as requested",
+     "A fit needs free parameters of the law, bounds around their start, and curves whose first column is the "
+     "driven one. The curves need more points than there are free parameters.",
+     "Correct what the message names. docs/manual/drive.md shows the columns of a curve and the form --free "
+     "NAME=LOW:HIGH."},
 
     // S7: decks of other programs, meshes, and writing for others.
     {"S701", "the deck's own counts and lists contradict each other",
      "A deck of another program describes its mesh by counts and lists (columns and rows, coordinates, "
-     "materials of elements), and these do not agree, or give a body that can't be.",
-     "Correct the list that the message shows; sagefe echo DECK prints each value with its name."},
-    {"S702", "a feature of that program is not taken over",
-     "The deck of another program uses generation, turned supports or options that are read but not "
-     "translated.",
-     "Write the generated cards out, one by one, in the program the deck is from, or in the deck."},
+     "materials of elements). They do not agree, or describe an impossible body.",
+     "Correct the list that the message shows. sagefe echo DECK prints each value with its name."},
+    {"S702", "a feature of that program is not translated",
+     "The deck of another program uses generation, turned supports or options that sagefe reads but does not "
+     "translate.",
+     "Write the generated cards out, one by one, in the original program or in the deck."},
     {"S703", "a law of another program is replaced",
-     "The deck's soil law has no exact counterpart; the message says what stands for it and what is "
+     "The deck's soil law has no exact counterpart. The message names the law that replaces it and what is "
      "missing.",
-     "Check its parameters on the converted deck (sagefe convert DECK own.dat), and choose another law "
-     "there if needed."},
+     "Check its parameters on the converted deck (sagefe convert DECK own.dat). Choose another law there if "
+     "needed."},
     {"S704", "a mesh was translated with a change",
-     "Elements were turned round, degenerate ones became triangles, nodes of no element were left out, or a "
-     "boundary without a counterpart became a support.",
-     "Nothing, where the message describes what is meant; look at the picture of the mesh."},
+     "sagefe reversed elements, turned degenerate ones into triangles, omitted nodes without elements, or "
+     "replaced a boundary without a counterpart by a support.",
+     "Look at the picture of the mesh. If the message describes what is meant, nothing needs to be done."},
     {"S705", "load factors of another program",
-     "Load factors or a method of that program are applied in another way than its name suggests; the "
-     "message says how.",
-     "Compare loads of each stage in the listing with what the deck is meant to say."},
+     "sagefe applies the load factors or a method of that program in another way than their name suggests. The "
+     "message explains how.",
+     "Compare the loads of each stage in the listing with what the deck is meant to state."},
     {"S710", "a mesh file can't be read",
-     "The file is no Gmsh mesh of version 4.1 or 2.2 and no Abaqus or CalculiX input, is cut short, or holds "
-     "elements or keywords that are not supported.",
-     "Correct the line that the message names. From Gmsh save with Mesh.MshFileVersion = 4.1, as triangles or "
-     "quadrilaterals. Write files that *INCLUDE names, and generated nodes and elements, into the file."},
+     "The file is neither a Gmsh mesh of version 4.1 or 2.2 nor an Abaqus or CalculiX input, is cut short, or "
+     "has elements or keywords that sagefe does not support.",
+     "Correct the line that the message names. In Gmsh save triangles or quadrilaterals with "
+     "Mesh.MshFileVersion = 4.1. In an .inp file replace *INCLUDE, and generated nodes and elements, by the "
+     "lines themselves."},
     {"S711", "the mesh holds no surface",
-     "Only curves and points are in the file: physical groups of curves alone, or the mesh was not made "
+     "The file has only curves and points. Either only curves have physical groups, or the mesh was not made "
      "in two dimensions.",
-     "Mesh in two dimensions, and give the surfaces a physical group, or save all elements (Mesh.SaveAll "
-     "= 1)."},
+     "Mesh in two dimensions. Give the surfaces a physical group, or save all elements (Mesh.SaveAll = 1)."},
     {"S712", "a constant of the mesh's material is out of range",
-     "A mesh carries no material, so options give one; this value can't be.",
-     "Young's modulus above 0, Poisson's ratio between -1 and 0.5."},
+     "A mesh has no material, so options of the command give one. This value is impossible.",
+     "Young's modulus is above 0, Poisson's ratio is between -1 and 0.5."},
     {"S713", "a part of the mesh is left out",
-     "Named curves become supports, pressures, structures and water lines by options or by their names, and "
-     "this "
-     "name has no such meaning, or the curve lies on no element. Elements of other types and keywords besides "
-     "nodes, elements, sets and surfaces are left out too.",
-     "Use the curve with --fix, --pressure, --beam, --bar or --water of sagefe convert, or name it fix_x, "
-     "fix_y, "
-     "fix_xy or pressure=VALUE in the mesh."},
+     "Named curves become supports, pressures, structures and water lines by options or by their names. This "
+     "name has no such meaning, or the curve lies on no element. sagefe also omits elements of other types, "
+     "and keywords other than nodes, elements, sets and surfaces.",
+     "Use the curve with --fix, --pressure, --beam, --bar or --water of sagefe convert. Or name it fix_x, "
+     "fix_y, fix_xy or pressure=VALUE in the mesh."},
     {"S714", "the two sides of a joint do not match",
-     "Lines named interface_bottom=NAME and interface_top=NAME are the two sides of one joint: each line needs "
-     "a "
-     "partner at the same place with as many nodes, of its own side's nodes.",
-     "Mesh both sides alike (the same transfinite numbers, or one curve periodic to the other), with nodes of "
-     "their "
-     "own: Gmsh's plugin Crack makes them from one curve."},
+     "Lines named interface_bottom=NAME and interface_top=NAME are the two sides of one joint. Each line needs "
+     "a partner at the same place with as many nodes, and each side needs nodes of its own.",
+     "Mesh both sides alike: use the same transfinite numbers, or make one curve periodic to the other. Gmsh's "
+     "plugin Crack makes separate nodes from one curve."},
     {"S720", "something is left out of the written file",
-     "The format written to has no place for it, or less digits. The new file describes another problem, "
-     "or the same one with less accuracy.",
-     "Add it by hand in the other program where it matters, or convert to .dat, which keeps most."},
+     "The file format can't hold it, or holds it with fewer digits. The new file describes another problem, or "
+     "the same problem less accurately.",
+     "If it matters, add it by hand in the other program. Or convert to .dat, which keeps most."},
     {"S721", "something is left to the other program",
-     "Integration, solver or control of the iterations are chosen by the program that reads the file; "
-     "results can differ a little.",
-     "Nothing; for comparing digits use elements whose integration is the same (reduced 8-node "
+     "The program that reads the file chooses integration, solver or control of the iterations. Its results "
+     "can differ slightly.",
+     "Nothing needs to be done. To compare digits use elements with the same integration (reduced 8-node "
      "elements)."},
     {"S722", "the model does not fit sage1 cards",
-     "An element has more nodes, or a number more digits, than a card's columns hold.",
+     "An element has more nodes, or a number more digits, than the columns of a card can hold.",
      "Convert to .msh or .inp, or write the numbers with fewer digits."},
-    {"S723", "the other program would write over a file",
-     "CalculiX names its results after its input, and a file of that name is there already.",
+    {"S723", "the other program would overwrite a file",
+     "CalculiX gives its results the name of its input, and a file of that name exists.",
      "Convert to the name in the message."},
     // S73: models with other values, from Python and in sweeps.
     {"S730", "the model has no number of that name",
-     "Names of numbers are made of the deck's materials, stages, reports and the parameters of its laws; a "
-     "sweep or "
-     "a program names one that this deck lacks.",
-     "Take the name that the message proposes; docs/manual/python.md lists how names are made, and "
-     "Model.names() "
+     "The names of numbers come from the deck's materials, stages and reports, and from the parameters of its "
+     "laws. A sweep or a program uses a name that this deck lacks.",
+     "Use the name that the message proposes. docs/manual/python.md explains the names, and Model.names() "
      "lists those of a deck."},
-    {"S731", "the value can't be given to that name",
-     "A number was expected and the value is none, or is not finite, or counts something and is not whole; or "
-     "the "
-     "name takes one of a few words.",
-     "Give what the message wants."},
+    {"S731", "that name can't have this value",
+     "The name needs a finite number, a whole number if it is a count, or one of a few words.",
+     "Give a value of the kind that the message names."},
     {"S732", "the study of a sweep can't be used",
-     "The TOML file of the study has a mistake at that line, an unknown key, or says too little.",
-     "docs/manual/sweep.md shows what a study holds."},
+     "The TOML file of the study has a mistake at that line, an unknown key, or too little information.",
+     "docs/manual/sweep.md shows the content of a study."},
     {"S733", "a law written in Python raised an exception",
-     "The function that Python gave as a law ended with an exception or returned something else than stress, "
-     "tangent "
-     "and history of the right shapes. A program in Python gets the exception itself.",
-     "Mend the function; Law(NAME).drive() tries it without a mesh."},
-    {"S734", "a sweep names what the deck does not read or give",
-     "A quantity or a name is none of the deck's, or no value of it changes the model: a parameter of a "
-     "material that no "
-     "group has, for example. Every case would have the same answer.",
-     "Take the name that the message proposes, or leave it out."},
-    {"S737", "a tool that should start the parts of a sweep is missing or failed",
-     "--parallel needs GNU parallel, --slurm needs sbatch. Where parts failed, the cases that they left are "
-     "computed by "
-     "the process that merges the table.",
-     "Install the tool, or leave the option out; the logs in the output folder say more."},
+     "The Python function of the law raised an exception, or did not return stress, tangent and history of the "
+     "right shapes. A program in Python receives the original exception.",
+     "Correct the function. Law(NAME).drive() tries it without a mesh."},
+    {"S734", "a sweep names what the deck does not have or use",
+     "The deck has no quantity or number of this name, or no value of it changes the model. An example is a "
+     "parameter of a material without a group. Every case would have the same answer.",
+     "Use the name that the message proposes, or remove it."},
+    {"S737", "a tool that starts the parts of a sweep is missing or failed",
+     "--parallel needs GNU parallel, --slurm needs sbatch. If parts failed, the process that merges the table "
+     "computes the remaining cases.",
+     "Install the tool, or omit the option. The logs in the output folder give details."},
     {"S738", "another sweep works on this study",
-     "The file with finished cases is in use by another process with the same study and output folder.",
-     "Wait for it, or give another folder, -o."},
+     "Another process with the same study and output folder uses the file of finished cases.",
+     "Wait until it ends, or choose another folder with -o."},
     {"S739", "a named part of the mesh can't be used so",
-     "An option of sagefe convert names a curve, point or set that the mesh lacks, or one that does not fit "
-     "the "
-     "use. A force needs one node. A structure and a pressure need lines. A water line has one height for each "
-     "x.",
-     "Choose one of the names that the message lists, or another option."},
+     "An option of sagefe convert names a curve, point or set that the mesh lacks or that does not fit. A "
+     "force needs one node. A structure and a pressure need lines. A water line needs one height for each x.",
+     "Use one of the names that the message lists, or another option."},
     {"S741", "partial factors are in force",
-     "The option --factors multiplies loads and divides strengths of the deck; the note says by how much. "
-     "Section "
-     "forces in the files of one set are those of the calculation; the table of all sets has them times the "
-     "factor on effects.",
-     "Nothing, where that is meant. --variable N names the stages whose loads are variable."},
+     "--factors multiplies loads of the deck and divides its strengths; the note lists the factors. The files "
+     "of one set contain the section forces of the calculation. The table of all sets contains them multiplied "
+     "by the factor on effects.",
+     "If that is meant, nothing needs to be done. --variable N names the stages whose loads are variable."},
     {"S742", "the sets of partial factors do not fit",
-     "The command computes one set at a time and --factors gives several, or --variable or --structural names "
-     "a "
-     "stage that the deck lacks.",
+     "The command computes one set at a time, and --factors gives several. Or --variable or --structural names "
+     "a stage that the deck lacks.",
      "Give one set, or a stage of the deck. sagefe run and sagefe safety accept several sets."},
+
     // S8: pieces from outside of the program.
     {"S801", "the deck needs a plug-in that is not loaded",
-     "A line \"* plugin: NAME\" before the first card names a plug-in that the deck was written for. A deck "
-     "never loads a library by itself: whoever runs it decides which code of others is executed.",
-     "Give --plugin LIBRARY with the library that has this name; sagefe list plugins --plugin LIBRARY shows "
-     "name and pieces of a library."},
+     "A line \"* plugin: NAME\" before the first card names a plug-in that the deck needs. A deck never loads "
+     "a library by itself, because the user decides whose code the computer executes.",
+     "Give --plugin LIBRARY with the library that has this name. sagefe list plugins --plugin LIBRARY shows "
+     "the name and the content of a library."},
     {"S802", "a library is no plug-in that can be used",
-     "The file is no library, misses another library that it was linked to, or has no entry point "
-     "sage_plugin_v1. Or it was built by another compiler or for another version of the program; the message "
-     "names the field and both values. Or it crashed or gave up when it had to give its pieces.",
-     "Build it against the installed package of this very program (sage_add_plugin in CMake, "
-     "docs/manual/plugins.md) with the compiler that the message names; ldd LIBRARY shows missing libraries, "
-     "sagefe conform LIBRARY tries its pieces."},
+     "The file is not a library, lacks another library that it was linked to, or has no entry point "
+     "sage_plugin_v1. Or another compiler or another version of the program built it; the message names the "
+     "difference. Or it crashed or failed when sagefe read its content.",
+     "Build it against the installed package of this program (sage_add_plugin in CMake, "
+     "docs/manual/plugins.md) with the compiler that the message names. ldd LIBRARY shows missing libraries, "
+     "and sagefe conform LIBRARY tries its content."},
     {"S803", "two pieces have the same code or name",
-     "A law, element, solver or field of a plug-in has a code or a name that is taken by the program or by "
-     "another plug-in, so that a card could mean either.",
-     "Change code or name in one of the two plug-ins; codes from 1000 are free, and each author best takes a "
-     "range of his own."},
-    {"S804", "the routine of a UMAT can't be had",
-     "A material of law umat has no routine, or the library of --umat can't be loaded, or has no symbol umat_, "
-     "umat or UMAT.",
-     "Give --umat LIBRARY for all such materials, or --umat MATERIAL=LIBRARY for one; LIBRARY:SYMBOL names a "
-     "routine that is called otherwise (nm -D LIBRARY lists names). Fortran: gfortran -shared -fPIC."},
+     "A law, element, solver or field of a plug-in has a code or name that the program or another plug-in "
+     "already uses. A card could mean either.",
+     "Change the code or name in one of the two plug-ins. Codes from 1000 upwards are free; each author should "
+     "use a separate range."},
+    {"S804", "the routine of a UMAT was not found",
+     "A material of law umat has no routine. Or sagefe can't load the library of --umat, or the library has no "
+     "symbol umat_, umat or UMAT.",
+     "Give --umat LIBRARY for all such materials, or --umat MATERIAL=LIBRARY for one. LIBRARY:SYMBOL names a "
+     "routine with another name (nm -D LIBRARY lists names). Fortran: gfortran -shared -fPIC."},
     {"S805", "a number of a umat material does not fit",
-     "The material card of a UMAT begins with the number of stress components (4 or 6), the number of state "
-     "variables and two marks: symmetric (0, 1 or 2) and safe for threads (0 or 1); the routine's properties "
-     "follow.",
-     "Compare the card with the routine's own documentation: NTENS, NSTATV (the DEPVAR of an Abaqus deck), "
+     "The material card of a UMAT begins with four numbers: stress components (4 or 6), state variables, "
+     "symmetric (0, 1 or 2), and safe for threads (0 or 1). The routine's own properties follow.",
+     "Compare the card with the documentation of the routine: NTENS, NSTATV (DEPVAR of an Abaqus deck), "
      "PROPS."},
-    {"S806", "a UMAT did not do what it must",
-     "The routine wrote beyond one of its arrays, ended the program (XIT, STOP, exit), returned what is no "
-     "number, or gave an unsymmetric matrix though the card calls it symmetric. Nothing of that step is kept.",
-     "sagefe conform --umat LIBRARY drives the routine alone and says what is wrong with it. Too few state "
-     "variables or properties on the card are the most frequent cause of writing beyond an array."},
-    {"S807", "`sagefe new` can't write its file or folder",
-     "The file exists already, the folder is not empty, or the templates of the program are not where they "
-     "were "
-     "installed.",
-     "Choose another name or folder, or empty it; where the templates are missing install the program anew."},
-    {"S808", "the suites that try pieces are not there",
-     "sagefe conform runs a second program, which is built only where GoogleTest was found.",
-     "Install GoogleTest (libgtest-dev), build and install the program again."},
-    {"S809", "a user material printed something, or needs a look",
-     "A UMAT wrote text, called for something that this program does not offer, or returned a DDSDDE that is "
-     "not the derivative of its stress; the run went on. Routines print when they meet a state that they were "
-     "not "
-     "written for, or while their author looks for a fault.",
-     "Read the log that the message names. Lines that a routine prints at every point slow a run down much: "
-     "take them out. Where equilibrium comes slowly, symmetric = 2 on the card has differences of the stress "
-     "taken in place of DDSDDE (docs/manual/umat.md)."},
+    {"S806", "a UMAT broke its rules",
+     "The routine wrote beyond one of its arrays, ended the program (XIT, STOP, exit), returned a value that "
+     "is not a number, or returned an unsymmetric matrix although the card calls it symmetric. sagefe discards "
+     "that step.",
+     "sagefe conform --umat LIBRARY drives the routine alone and reports its faults. The most frequent cause "
+     "of writing beyond an array is a card with too few state variables or properties."},
+    {"S807", "sagefe new can't write its file or folder",
+     "The file exists, the folder is not empty, or the program's templates are not in their installed place.",
+     "Choose another name or folder, or empty the folder. If the templates are missing, install the program "
+     "again."},
+    {"S808", "the tests of laws, elements and solvers are missing",
+     "sagefe conform runs a second program, which is built only if GoogleTest is installed.",
+     "Install GoogleTest (libgtest-dev), then build and install the program again."},
+    {"S809", "a user material printed something, or needs attention",
+     "A UMAT wrote text, called a function that sagefe does not offer, or returned a DDSDDE that is not the "
+     "derivative of its stress. The run continued. Routines print in states that they were not written for, or "
+     "for debugging.",
+     "Read the log that the message names. Remove lines that a routine prints at every point, because they "
+     "slow a run down. If convergence is slow, symmetric = 2 on the card uses differences of the stress in "
+     "place of DDSDDE (docs/manual/umat.md)."},
     {"S810", "a piece crashed under the checks",
-     "A law or element of the library ended the program that tries it, mostly by writing or reading beyond an "
-     "array, or by a division of integers by zero.",
-     "The last line above names what was tried. Build the library with -g -fsanitize=address, or run "
-     "sagefe conform LIBRARY under gdb or valgrind: they show the line."},
+     "A law or element of the library ended the program that tests it. Most often it read or wrote beyond an "
+     "array, or divided integers by zero.",
+     "The last line above names the test. Build the library with -g -fsanitize=address, or run sagefe conform "
+     "LIBRARY under gdb or valgrind, which show the line."},
 
     // S9: the command line.
-    {"S901", "there is no such command", "The first word behind the program's name says what is to be done.",
-     "sagefe --help lists the commands; the usual one is sagefe run DECK."},
-    {"S902", "an option or word is not known",
-     "The command has no such option, or takes no further word. Options of one command are not those of "
-     "another.",
-     "sagefe COMMAND --help, or man sagefe-COMMAND."},
+    {"S901", "there is no such command", "The first word after sagefe must be the name of a command.",
+     "sagefe --help lists the commands. The usual one is sagefe run DECK."},
+    {"S902", "an option or word is unknown",
+     "The command has no such option, or accepts no further word. Each command has its own options.",
+     "See sagefe COMMAND --help, or man sagefe-COMMAND."},
     {"S903", "something is missing on the command line",
-     "A deck, a file or the value of an option is wanted and not there.",
-     "sagefe COMMAND --help shows the order: what stands in brackets can be left out."},
+     "The command needs a deck, a file or the value of an option.",
+     "sagefe COMMAND --help shows the order. Words in brackets are optional."},
     {"S904", "an option's value is rejected",
-     "The value is none of those known, no number, out of range, or a file that is not there.",
-     "The message says what is wanted; values with blanks need quotes."},
+     "The value is unknown, is not a number, is out of range, or names a file that does not exist.",
+     "Give a value of the kind that the message names. A value with blanks needs quotes."},
     {"S905", "options do not go together", "Two options exclude each other, or one needs another.",
-     "Give one of them, or both that belong together; the help of the command says which."},
+     "Give one of them, or both that belong together. The help of the command explains which."},
     {"S906", "a warning counts as an error",
-     "--strict was given, and the deck or its run has warnings. Those of a run come while it computes; its "
-     "results are "
-     "complete then, and the exit code is 2.",
-     "Mend what they say, or leave out --strict."},
+     "--strict was given, and the deck or its run has warnings. If the deck has warnings, sagefe does not run "
+     "it. If the run has warnings, its results are complete. The exit code is 2.",
+     "Correct what the warnings describe, or omit --strict."},
     {"S907", "the command needs what the deck lacks",
-     "--converge and --follow work on numbers of reports, compare on points of both meshes; the deck has "
-     "none, or none with a value at the end.",
-     "Add a report card, name one that the message lists, or a point in both meshes."},
-    {"S908", "the deck can't come from a pipe here",
-     "The command reads its deck more than once, which a pipe can't give.", "Save the deck to a file first."},
+     "--converge and --follow need numbers of reports, and sagefe compare needs points of both meshes. The "
+     "deck has none, or none with a value at the end.",
+     "Add a report card, name one that the message lists, or give a point in both meshes."},
+    {"S908", "this command can't read the deck from a pipe",
+     "The command reads its deck more than once, which is impossible with a pipe.",
+     "Save the deck to a file first."},
     {"S909", "an option does nothing here",
-     "Together with the others the option has no effect: --converge writes its table, not the files of a "
-     "run.",
-     "Run the deck again with the options that the last line of the table shows."},
+     "Another option makes this one ineffective. For example, --converge writes its table and not the files of "
+     "a run.",
+     "Omit the option. After --converge, run the deck again with the options in the last line of the table."},
     {"S910", "there is no such code",
-     "sagefe explain takes a code as messages print it in brackets, such as S501.",
-     "sagefe explain lists all codes; sagefe explain --search WORD looks in their texts."},
+     "sagefe explain needs a code as messages print it in brackets, such as S501.",
+     "sagefe explain lists all codes. sagefe explain --search WORD searches their texts."},
     {"S911", "standard output was lost",
-     "The program that read the output ended, or its disk is full; results in files are not touched.",
-     "Write to a file with room (> FILE), and look at it with less."},
-    {"S912", "the program behind a command is not there",
-     "sagefe figures, stress and verify are done by the programs sagefe-figures, sagefe-stress and "
-     "sagefe-verify, which "
-     "lie in the folder of the program sagefe, no other. A build for use alone has none of them.",
+     "The program that read the output ended, or the disk of its file is full. Results in files are not "
+     "affected.",
+     "Write to a file with enough space (> FILE), and read it with less."},
+    {"S912", "the program behind a command is missing",
+     "sagefe figures, stress and verify run the programs sagefe-figures, sagefe-stress and sagefe-verify, "
+     "which must be in the folder of sagefe. A build without studies has none of them.",
      "cmake builds them with -DSAGE_STUDIES=ON, and so does scripts/test (docs/manual/verify.md)."},
 };
 
