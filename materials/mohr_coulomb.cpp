@@ -68,13 +68,14 @@ bool MohrCoulomb::accepts_history(const Vector4& /*sigma*/, std::span<const doub
 Outcome MohrCoulomb::update(const PointIn<4>& in, PointOut<4>& out) const {
   std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
   const Vector4 trial = in.sigma0 + D_elastic_ * in.deps;
-  if (!outside(planes_, trial)) {
+  const Principal axes = principal(trial);
+  if (!outside(planes_, axes)) {
     out.sigma = trial;
     out.D = D_elastic_;
     out.status = PointStatus::elastic;
     return Outcome::ok;
   }
-  const MohrCoulombReturn back = return_to_planes(planes_, elastic_, trial);
+  const MohrCoulombReturn back = return_to_planes(planes_, elastic_, axes);
   out.sigma = back.sigma;
   out.D = back.R * D_elastic_;
   out.status = back.status;

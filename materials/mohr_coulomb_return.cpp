@@ -56,26 +56,31 @@ Vector3 normal(Plane plane, double slope) {
   return Vector3::Zero();
 }
 
-// The planes of a set: A their normals, D B their plastic stresses, y where they stand.  D is that of the principal stresses
-// over its first term, so that no unit of stress can make the inverse overflow.  Unused columns are kept as identity.
+// The n planes of a set: A their normals, D B their plastic stresses, y where they stand.  D is that of the principal
+// stresses over its first term, so that no unit of stress can make the inverse overflow.
+template <int n>
 struct PlaneSet {
   PlaneSet(const MohrCoulombPlanes& planes, const Matrix3& D, const ActiveSet& set) {
-    Matrix3 B, unused = Matrix3::Zero();
-    for (int i = 0; i < 3; ++i) {
+    Eigen::Matrix<double, 3, n> B;
+    for (int i = 0; i < n; ++i) {
       const Plane plane = set[i];
       A.col(i) = normal(plane, planes.N);
       B.col(i) = normal(plane, planes.M);
-      y[i] = plane < t1 ? planes.Y : plane < none ? planes.T : 0.0;
-      if (plane == none) unused(i, i) = 1.0;
+      y[i] = plane < t1 ? planes.Y : planes.T;
     }
     DB.noalias() = D * B;
-    S_inverse = Matrix3(A.transpose() * DB + unused).inverse();
+    S_inverse = Matrix<n>(A.transpose() * DB).inverse();
   }
-  Vector3 multipliers(const Vector3& sigma) const { return S_inverse * (A.transpose() * sigma - y); }
+  Vector<n> multipliers(const Vector3& sigma) const { return S_inverse * (A.transpose() * sigma - y); }
 
-  Matrix3 A, DB, S_inverse;
-  Vector3 y;
+  Eigen::Matrix<double, 3, n> A, DB;
+  Matrix<n> S_inverse;
+  Vector<n> y;
 };
+
+int size_of(const ActiveSet& set) {
+  return set[2] != none ? 3 : set[1] != none ? 2 : 1;
+}
 
 struct Candidate {
   Vector3 sigma;
@@ -85,41 +90,74 @@ struct Candidate {
   Vector3 lambda = Vector3::Zero();
 };
 
-// Koiter: s = s_tr - D B lambda,  lambda = (A^T D B)^-1 (A^T s_tr - y).
-Candidate return_to_set(const PlaneSet& planes, const ActiveSet& set, const Vector3& trial,
-                        const Vector3& lambda) {
-  Candidate c{trial - planes.DB * lambda,
-              Matrix3::Identity() - planes.DB * planes.S_inverse * planes.A.transpose(), set[2] != none, set,
-              lambda};
-  // A trial stress far away leaves its rounding on the planes: take it off again.
-  for (int repeat = 0; repeat < 2; ++repeat) c.sigma -= planes.DB * planes.multipliers(c.sigma);
-  return c;
-}
-
 // Order kept and no plane exceeded, to the rounding of the trial stress.
 bool acceptable(const MohrCoulombPlanes& planes, const Vector3& s, double cut_off, double rounding) {
   const bool ordered = s[0] >= s[1] - rounding && s[1] >= s[2] - rounding;
   return ordered && s[0] <= cut_off + rounding && planes.N * s[0] - s[2] - planes.Y <= planes.N * rounding;
 }
 
+// What every set is tried with.
+struct Search {
+  const MohrCoulombPlanes& planes;
+  const Matrix3& D;
+  const Vector3& trial;
+  double cut_off, rounding;
+};
+
+// Koiter: s = s_tr - D B lambda,  lambda = (A^T D B)^-1 (A^T s_tr - y).  Whether that is the answer; `found` is what it
+// gives where lambda >= 0, and for the last set in any case.
+template <int n>
+bool try_set(const Search& search, const ActiveSet& set, bool last, Candidate& found) {
+  const PlaneSet<n> active(search.planes, search.D, set);
+  const Vector<n> lambda = active.multipliers(search.trial);
+  const bool loaded = lambda.minCoeff() >= -search.rounding;
+  if (!loaded && !last) return false;
+  found.sigma = search.trial - active.DB * lambda;
+  // A trial stress far away leaves its rounding on the planes: take it off again.
+  for (int repeat = 0; repeat < 2; ++repeat) found.sigma -= active.DB * active.multipliers(found.sigma);
+  const bool answer = loaded && acceptable(search.planes, found.sigma, search.cut_off, search.rounding);
+  if (!answer && !last) return false;
+  found.R = Matrix3::Identity() - active.DB * active.S_inverse * active.A.transpose();
+  found.vertex = n == 3;
+  found.set = set;
+  found.lambda.setZero();
+  found.lambda.template head<n>() = lambda;
+  return answer;
+}
+
 // The sets are tried from few planes to many; a set with multipliers >= 0 is the answer, and the last one if there is none.
 template <std::size_t Count>
-bool find_set(const MohrCoulombPlanes& planes, const Matrix3& D, const std::array<ActiveSet, Count>& sets,
-              const Vector3& trial, double cut_off, Candidate& found) {
-  const double rounding = kRounding * trial.cwiseAbs().maxCoeff();
+bool find_set(const Search& search, const std::array<ActiveSet, Count>& sets, Candidate& found) {
   for (const ActiveSet& set : sets) {
-    const PlaneSet active(planes, D, set);
-    const Vector3 lambda = active.multipliers(trial);
-    const bool loaded = lambda.minCoeff() >= -rounding;
-    if (!loaded && set != sets.back()) continue;
-    found = return_to_set(active, set, trial, lambda);
-    if (loaded && acceptable(planes, found.sigma, cut_off, rounding)) return true;
+    const bool last = set == sets.back();
+    const int planes = size_of(set);
+    if (planes == 1   ? try_set<1>(search, set, last, found)
+        : planes == 2 ? try_set<2>(search, set, last, found)
+                      : try_set<3>(search, set, last, found))
+      return true;
   }
   return false;
 }
 
-// d sigma of an answer while the planes move: S d(lambda) = dA^T sigma - dy - A^T D dB lambda,
-// d sigma = -D (dB lambda + B d(lambda)).  The apex, which is no set of planes, moves by itself.
+// d sigma of an answer while its planes move: S d(lambda) = dA^T sigma - dy - A^T D dB lambda,
+// d sigma = -D (dB lambda + B d(lambda)).
+template <int n>
+Vector3 rate_of_set(const MovingPlanes& moving, const Matrix3& D, const Candidate& c) {
+  const auto& [planes, rates] = moving;
+  Vector3 flow = Vector3::Zero();
+  Vector<n> right;
+  for (int i = 0; i < n; ++i) {
+    const Plane plane = c.set[i];
+    // d(normal)/d(slope): the slope stands with the larger of the two principals.
+    const Vector3 turn = plane < t1 ? Vector3(normal(plane, 1.0) - normal(plane, 0.0)) : Vector3::Zero();
+    flow += rates.M * c.lambda[i] * turn;
+    right[i] = rates.N * turn.dot(c.sigma) - (plane < t1 ? rates.Y : rates.T);
+  }
+  const PlaneSet<n> active(planes, D, c.set);
+  return -(D * flow + active.DB * (active.S_inverse * (right - active.A.transpose() * (D * flow))));
+}
+
+// The apex, which is no set of planes, moves by itself.
 Vector3 rate_of(const MovingPlanes& moving, const Matrix3& D, const Candidate& c) {
   const auto& [planes, rates] = moving;
   if (c.set[0] == none) {
@@ -127,24 +165,19 @@ Vector3 rate_of(const MovingPlanes& moving, const Matrix3& D, const Candidate& c
     return Vector3::Constant(planes.T < planes.apex() ? rates.T
                                                       : rates.Y / above - planes.Y * rates.N / (above * above));
   }
-  Vector3 right, flow = Vector3::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Plane plane = c.set[i];
-    // d(normal)/d(slope): the slope stands with the larger of the two principals.
-    const Vector3 turn = plane < t1 ? Vector3(normal(plane, 1.0) - normal(plane, 0.0)) : Vector3::Zero();
-    flow += rates.M * c.lambda[i] * turn;
-    right[i] = rates.N * turn.dot(c.sigma) - (plane < t1 ? rates.Y : plane < none ? rates.T : 0.0);
-  }
-  const PlaneSet active(planes, D, c.set);
-  return -(D * flow + active.DB * (active.S_inverse * (right - active.A.transpose() * (D * flow))));
+  const int n = size_of(c.set);
+  return n == 1   ? rate_of_set<1>(moving, D, c)
+         : n == 2 ? rate_of_set<2>(moving, D, c)
+                  : rate_of_set<3>(moving, D, c);
 }
 
 // Sorted trial stress to sorted answer.
 Candidate return_sorted(const MohrCoulombPlanes& planes, const Matrix3& D, const Vector3& trial) {
   const double apex = planes.apex();
   Candidate c;
-  const bool found = planes.T < apex ? find_set(planes, D, kTensionSets, trial, planes.T, c)
-                                     : find_set(planes, D, kMohrCoulombSets, trial, apex, c);
+  const Search search{planes, D, trial, std::min(planes.T, apex), kRounding * trial.cwiseAbs().maxCoeff()};
+  const bool found =
+      planes.T < apex ? find_set(search, kTensionSets, c) : find_set(search, kMohrCoulombSets, c);
   const double tip = std::min(planes.T, apex);
   if (found || !std::isfinite(tip)) return c;  // without a tip the last edge differs by rounding only
   return {Vector3::Constant(tip), Matrix3::Zero(), true, {none, none, none}, Vector3::Zero()};
@@ -158,7 +191,7 @@ Matrix3 principal_stiffness(const ElasticModuli& elastic) {
 
 // A trial stress in its principal axes, and what it comes back to there.
 struct InAxes {
-  explicit InAxes(const Vector4& trial) : axes(principal(trial)), value{axes.a, axes.b, axes.zz} {
+  explicit InAxes(const Principal& trial) : axes(trial), value{axes.a, axes.b, axes.zz} {
     order = axes.zz >= axes.a   ? std::array<int, 3>{2, 0, 1}
             : axes.zz >= axes.b ? std::array<int, 3>{0, 2, 1}
                                 : std::array<int, 3>{0, 1, 2};
@@ -209,8 +242,7 @@ double MohrCoulombPlanes::apex() const {
   return N > 1.0 ? Y / (N - 1.0) : std::numeric_limits<double>::infinity();
 }
 
-bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma) {
-  const Principal s = principal(sigma);
+bool outside(const MohrCoulombPlanes& planes, const Principal& s) {
   const double s1 = std::max(s.a, s.zz), s3 = std::min(s.b, s.zz);
   const double scale = planes.Y + planes.N * std::abs(s1) + std::abs(s3);
   return planes.N * s1 - s3 - planes.Y > kRounding * scale ||
@@ -218,14 +250,14 @@ bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma) {
 }
 
 MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
-                                   const Vector4& trial) {
+                                   const Principal& trial) {
   const InAxes axes(trial);
   return in_place(planes, axes, return_sorted(planes, principal_stiffness(elastic), axes.sorted));
 }
 
 MovedReturn return_to_moving_planes(const MovingPlanes& moving, const ElasticModuli& elastic,
                                     const Vector4& trial) {
-  const InAxes axes(trial);
+  const InAxes axes(principal(trial));
   const Matrix3 D = principal_stiffness(elastic);
   const Candidate answer = return_sorted(moving.planes, D, axes.sorted);
   const Matrix4 T = stress_from_principal_axes(axes.axes.cos_2, axes.axes.sin_2);

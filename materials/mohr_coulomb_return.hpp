@@ -3,6 +3,7 @@
 #pragma once
 
 #include "materials/linear_elastic.hpp"
+#include "materials/stress_measures.hpp"
 #include "sage/core/law.hpp"
 
 namespace sage {
@@ -24,12 +25,19 @@ struct MohrCoulombReturn {
 };
 
 // f > 0 or s1 > T by more than rounding?
-bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma);
+bool outside(const MohrCoulombPlanes& planes, const Principal& sigma);
+inline bool outside(const MohrCoulombPlanes& planes, const Vector4& sigma) {
+  return outside(planes, principal(sigma));
+}
 
 // For a trial stress that is outside.  Finds the set of active planes whose multipliers are not negative and
 // whose stress keeps the order of the principals; the apex where there is none.
 MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
-                                   const Vector4& trial);
+                                   const Principal& trial);
+inline MohrCoulombReturn return_to_planes(const MohrCoulombPlanes& planes, const ElasticModuli& elastic,
+                                          const Vector4& trial) {
+  return return_to_planes(planes, elastic, principal(trial));
+}
 
 // Planes that move with one number, such as a plastic strain, and how fast.
 struct MovingPlanes {
