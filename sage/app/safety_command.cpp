@@ -19,6 +19,7 @@
 #include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
 #include "sage/record/csv.hpp"
+#include "sage/record/profile_text.hpp"
 #include "sage/safety/safety_text.hpp"
 #include "solvers/choose_solver.hpp"
 
@@ -40,6 +41,7 @@ struct SafetyOptions {
   int max_dofs = 60'000;
   int digits = kCsvDigits;
   std::filesystem::path folder = "out";
+  bool profile = false;
 };
 
 // One mesh and what was found on it.
@@ -258,9 +260,11 @@ int find_one(const SafetyOptions& options, const Catalogue& catalogue) {
     say_left(options.deck, results.close());
     const ProgressPause pause;
     fmt::print("{}", text);
+    if (options.profile) fmt::print("\n{}\n", profile_table(last.found.profile));
     print_files(files);
     if (Json* json = answer()) {
       *json = safety_json(options, meshes);
+      (*json)["phases"] = Json::parse(profile_json(last.found.profile, "", 0, ""))["run"];
       (*json)["files"] = files_json(files);
     }
     return exit_code_of(options, meshes);
@@ -391,6 +395,8 @@ Command safety_command(CLI::App& parser, const Catalogue& catalogue) {
   add_kernels_option(parser, o->kernels);
   add_digits_option(parser, o->digits);
   parser.add_option("-o,--output", o->folder, "folder for results (default: out)");
+  parser.add_flag("--profile", o->profile,
+                  "print where time and floating-point operations went, over all trials of the last mesh");
   add_input_options(parser, o->input);
   add_build_options(parser, o->input.build, catalogue);
   return [o, &catalogue] { return run_safety(*o, catalogue); };

@@ -364,7 +364,12 @@ void Finder::run_from_start(double factor) {
     settings.max_cuts = std::min(settings.max_cuts, options_.cuts);
   if (safety_.trials.empty() && options_.start == Start::carried)
     settings.max_cuts = std::min(settings.max_cuts, kCutsOfFirstRun);
-  const RunResult result = run(model_, catalogue_, settings, observers);
+  const RunResult result = [&] {
+    const Profile::Scope scope(safety_.profile, phase::kAnalysis);
+    RunResult of_run = run(model_, catalogue_, settings, observers);
+    safety_.profile.add(of_run.work.profile);
+    return of_run;
+  }();
   laws_before_.clear();
   if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
   safety_.stopped = result.status == RunStatus::stopped;
@@ -536,6 +541,7 @@ Safety Finder::find() {
     run_from_start(*factor);
   }
   conclude();
+  safety_.profile.stop();
   return std::move(safety_);
 }
 

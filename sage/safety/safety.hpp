@@ -10,6 +10,7 @@
 
 #include "sage/analysis/run.hpp"
 #include "sage/model/strength.hpp"
+#include "sage/platform/profile.hpp"
 #include "sage/record/result.hpp"
 #include "sage/safety/factor_search.hpp"
 
@@ -83,6 +84,7 @@ struct Safety {
   // has none the last that stands; scaled to a displacement of 5 % of the mesh.  Null = no trial moved anything.
   std::unique_ptr<Frame> mechanism;
   double mechanism_factor = 0.0;
+  Profile profile;  // of all runs and trials
 
   bool complete() const { return incomplete.empty() && !stopped; }
   // The last trial of a factor; nullptr = it was not tried.
