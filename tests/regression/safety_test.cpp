@@ -1,6 +1,8 @@
 // sagefe safety as a user meets it: what it prints and writes, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "tests/regression/program.hpp"
@@ -28,6 +30,28 @@ TEST(SafetyCommand, SaysBothEndsAndWhy) {
     EXPECT_TRUE(fs::exists(folder / "out" / (std::string("weak") + ending))) << ending;
   EXPECT_TRUE(has(read(folder / "out/weak.safety.csv"), "factor,from,verdict,displacement"));
   EXPECT_TRUE(has(read(folder / "out/weak.safety.lst"), "safety factor between 0.666"));
+}
+
+TEST(SafetyCommand, ProfileHasTheWorkOfEveryTrial) {
+  const fs::path folder = empty_folder("safety_profile");
+  write(folder / "weak.dat", collapse_deck().text());
+  const Finished run = sagefe(folder, "safety weak.dat --tolerance 1e-2 --profile --json -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto result = nlohmann::json::parse(run.out)["result"];
+  // One run holds all trials: iterations of each, and a factorisation in every iteration at least.
+  const auto& analysis = result["phases"]["phases"][0];
+  EXPECT_EQ(analysis["phase"], "analysis");
+  long iterations = 0;
+  for (const auto& trial : result["trials"]) iterations += trial["iterations"].get<long>();
+  long solutions = 0;
+  const std::function<void(const nlohmann::json&)> count = [&](const nlohmann::json& phase) {
+    if (phase["phase"] == "solution") solutions += phase["calls"].get<long>();
+    if (phase.contains("phases"))
+      for (const auto& part : phase["phases"]) count(part);
+  };
+  count(result["phases"]);
+  EXPECT_GT(iterations, 0);
+  EXPECT_GE(solutions, iterations);
 }
 
 TEST(SafetyCommand, NoBracketIsExitCodeThree) {
