@@ -8,8 +8,8 @@
 #include "sage/analysis/audit.hpp"
 #include "sage/analysis/dissipation.hpp"
 #include "sage/analysis/explain.hpp"
+#include "sage/analysis/external_loads.hpp"
 #include "sage/analysis/fold.hpp"
-#include "sage/analysis/loads.hpp"
 #include "sage/analysis/pore_warnings.hpp"
 #include "sage/analysis/run_checkpoint.hpp"
 #include "sage/analysis/stage_start.hpp"
@@ -167,7 +167,7 @@ void Analysis::Stages::begin_stage() {
   has_begun_ = true;
   if (s == 0)
     observer_list_.tell([&](Observer& o) {
-      o.on_start(model_, system_.scene(), system_.tangent().name(), system_.equations());
+      o.on_start(model_, system_.scene(), system_.tangent().solver().traits().name, system_.equations());
     });
   recover_for(report);
   observer_list_.tell([&](Observer& o) { o.on_stage_start(model_, s, solution()); });
@@ -350,7 +350,7 @@ void Analysis::Stages::take_loads() {
   };
   path.force_start = start_of(now);
   path.external_start = start_of(state_.external);
-  system_.assembly().take_spread_loads(t);
+  system_.assembly().take_element_loads(t);
   control_.take_loads();
 }
 

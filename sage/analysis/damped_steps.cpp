@@ -87,7 +87,7 @@ NewtonStep DampedSteps::attempt(StepReport& report, double from, double to, cons
     run_.tangent().forget();
     if (!elastic.known()) {
       elastic.begin();
-      elastic.end(run_.assembly().evaluate_elastic(run_.tangent()));
+      elastic.end(evaluate_elastic(run_.assembly(), run_.tangent()));
       run_.tangent().forget();
     }
     if (!elastic.known()) return failed;

@@ -28,4 +28,11 @@ class ElasticMatrices {
   std::vector<std::size_t> from_ = {0};  // of each element, and the end
 };
 
+class Assembly;
+class Tangent;
+
+// The elastic K into the tangent: solids at the committed state, interfaces closed and stuck, structures without force.
+// Internal forces then mean nothing until the next evaluation.
+Outcome evaluate_elastic(Assembly& assembly, Tangent& tangent);
+
 }  // namespace sage

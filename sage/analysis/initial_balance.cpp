@@ -4,7 +4,8 @@
 #include <optional>
 
 #include "sage/analysis/explain.hpp"
-#include "sage/analysis/loads.hpp"
+#include "sage/analysis/external_loads.hpp"
+#include "sage/analysis/initial_states.hpp"
 
 namespace sage {
 

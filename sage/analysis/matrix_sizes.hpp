@@ -18,6 +18,8 @@ class MatrixSizes {
   void take(const KeptMatrix* matrix, int equations);
   void forget();
 
+  // Nullptr where the solver keeps none.
+  const KeptMatrix* matrix() const { return matrix_; }
   // The largest column sum of |K|; -1 where the solver keeps no matrix.
   double norm1() const;
   // Largest size, in the equations of the field `to`, of K times signs without an order in those of the field

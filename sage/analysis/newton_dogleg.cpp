@@ -8,9 +8,9 @@ namespace sage {
 
 // A rejected correction leaves K and its factors as they were: only the residual is computed anew.
 void iterate_with_dogleg(StepIteration& step) {
-  const KeptMatrix* const K = step.tangent.matrix();
+  const KeptMatrix* const K = step.tangent.sizes().matrix();
   if (K == nullptr)
-    throw AnalysisError("the solver " + step.tangent.name() +
+    throw AnalysisError("the solver " + std::string(step.tangent.solver().traits().name) +
                         " keeps no matrix, which method 3 (dogleg) needs");
   Dogleg dogleg;
   if (step.assemble(step.full_newton()) == Outcome::cut_step) return;

@@ -54,7 +54,7 @@ double Relaxation::start(double from, double to) {
 bool Relaxation::hold_elastic() {
   run_.state.du.setZero();
   run_.tangent().forget();
-  if (run_.assembly().evaluate_elastic(run_.tangent()) == Outcome::cut_step) return false;
+  if (evaluate_elastic(run_.assembly(), run_.tangent()) == Outcome::cut_step) return false;
   try {
     run_.tangent().factorise(run_.result.work);
   } catch (const SingularMatrix&) {

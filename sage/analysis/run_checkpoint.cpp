@@ -79,8 +79,9 @@ RunPlace resume_from(const RunParts& run, const std::string& bytes) {
   exchange(run, archive, place, factorised);
   const WorkCounts work = run.result.work;
   evaluate_again(run, place, factorised && (within || system.tangent().constant()));
-  run.observer_list.tell(
-      [&](Observer& o) { o.on_start(run.model, system.scene(), system.tangent().name(), system.equations()); });
+  run.observer_list.tell([&](Observer& o) {
+    o.on_start(run.model, system.scene(), system.tangent().solver().traits().name, system.equations());
+  });
   run.observer_list.exchange(archive);
   run.state.place = place;
   if (within) run.state.reached = run.end_of(place);

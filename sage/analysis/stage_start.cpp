@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
+#include "sage/analysis/external_loads.hpp"
 #include "sage/analysis/initial_balance.hpp"
-#include "sage/analysis/loads.hpp"
+#include "sage/analysis/initial_states.hpp"
 #include "sage/analysis/pore_steps.hpp"
 #include "sage/analysis/pore_warnings.hpp"
 #include "sage/analysis/stage_warnings.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sage/analysis/loads.hpp"
+#include "sage/analysis/external_loads.hpp"
 #include "sage/core/solver_extensions.hpp"
 #include "sage/platform/large_pages.hpp"
 
@@ -66,8 +66,7 @@ void System::analyse() {
   std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
   if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get()))
     placed->set_places(places_of(model_.mesh, *assembly_));
-  tangent_.analyse(std::move(solver), entry->name, assembly_->equations(), assembly_->element_equations(),
-                   work_);
+  tangent_.analyse(std::move(solver), assembly_->equations(), assembly_->element_equations(), work_);
   if (assembly_->equations() >= kManyEquations) return_freed_memory();
   held_before_ = activity_.held;
   groups_before_ = activity_.group;
@@ -97,9 +96,8 @@ void System::open_stage(int s) {
   });
   tangent_.set_rate(rate_);
   exits_.enter(model_, activity_, s);
-  const bool same_pattern = tangent_.analysed() && !eliminated_before &&
-                            assembly_->eliminated().dofs().empty() && held_before_ == activity_.held &&
-                            groups_before_ == activity_.group;
+  const bool same_pattern = !eliminated_before && assembly_->eliminated().dofs().empty() &&
+                            held_before_ == activity_.held && groups_before_ == activity_.group;
   if (!same_pattern) analyse();
   const bool serves = tangent_.constant() && tangent_.factorised() && rate_.isZero(0.0);
   if (!serves) tangent_.forget();

@@ -7,18 +7,16 @@
 
 namespace sage {
 
-void Tangent::analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
-                      ElementEquations elements, WorkCounters& work) {
+void Tangent::analyse(std::unique_ptr<LinearSolver> solver, int equations, ElementEquations elements,
+                      WorkCounters& work) {
   const Profile::Scope scope(work.profile, phase::kNumbering);
   ++work.analyses;
   state_ = State::empty;
   solver_ = std::move(solver);
-  name_ = name;
   parallel_ = dynamic_cast<ParallelAssembly*>(solver_.get());
-  matrix_ = dynamic_cast<const KeptMatrix*>(solver_.get());
   repeated_ = dynamic_cast<const RepeatedParts*>(solver_.get());
   elastic_.analyse(elements);
-  sizes_.take(matrix_, equations);
+  sizes_.take(dynamic_cast<const KeptMatrix*>(solver_.get()), equations);
   solver_->analyse(equations, std::move(elements));
 }
 
@@ -26,11 +24,6 @@ void Tangent::clear() {
   sizes_.forget();
   solver_->clear();
   coupling_.setZero(rate_->size());
-}
-
-void Tangent::add(int element, const ElementDofs& dofs, const double* K) {
-  add(element, K);
-  couple(dofs, K);
 }
 
 void Tangent::damp(double share) {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "sage/analysis/elastic_matrices.hpp"
 #include "sage/analysis/group_data.hpp"
@@ -27,8 +25,8 @@ class Tangent {
   Tangent(bool linear, bool keeps) : linear_(linear), constant_(linear && keeps) {}
 
   // A new pattern of equations, and a solver for it.
-  void analyse(std::unique_ptr<LinearSolver> solver, const std::string& name, int equations,
-               ElementEquations elements, WorkCounters& work);
+  void analyse(std::unique_ptr<LinearSolver> solver, int equations, ElementEquations elements,
+               WorkCounters& work);
   // rate: displacement of every prescribed dof over the stage, for coupling().  It must stay where it is.
   void set_rate(const Eigen::VectorXd& rate) {
     rate_ = &rate;
@@ -37,19 +35,15 @@ class Tangent {
 
   bool linear() const { return linear_; }
   bool constant() const { return constant_; }
-  bool analysed() const { return solver_ != nullptr; }
   bool current() const { return state_ >= State::current; }
   bool factorised() const { return state_ == State::factorised; }
   const LinearSolver& solver() const { return *solver_; }
-  const KeptMatrix* matrix() const { return matrix_; }  // of the solver; nullptr where it keeps none
-  const std::string& name() const { return name_; }
   const Eigen::VectorXd& coupling() const { return coupling_; }  // K(free, prescribed) rate, every dof
 
   void forget() { state_ = State::empty; }
   // K and its factors are no longer needed: their memory is freed.
   void release() {
     solver_.reset();
-    matrix_ = nullptr;
     sizes_.take(nullptr, 0);
     state_ = State::empty;
   }
@@ -63,9 +57,7 @@ class Tangent {
   // them already.  all_kept: all are stored.
   template <class Elements, class Kept>
   Outcome assemble(bool all_kept, Elements elements, Kept kept);
-  // From within: the element's matrix, column-major.
-  void add(int element, const ElementDofs& dofs, const double* K);
-  // The same where none of its dofs is prescribed.
+  // From within: the element's matrix, column-major; couple() too, where one of its dofs is prescribed.
   void add(int element, const double* K) {
     solver_->add(element, K);
     if (elastic_.is_taking()) elastic_.keep(element, K);
@@ -108,9 +100,7 @@ class Tangent {
   std::unique_ptr<LinearSolver> solver_;
   // What the solver offers beyond a solution; nullptr: it does not.
   ParallelAssembly* parallel_ = nullptr;
-  const KeptMatrix* matrix_ = nullptr;
   const RepeatedParts* repeated_ = nullptr;
-  std::string name_;
   const Eigen::VectorXd* rate_ = nullptr;
   Eigen::VectorXd coupling_;
   ElasticMatrices elastic_;
@@ -120,10 +110,8 @@ class Tangent {
 // An element of the system.
 inline void add_matrix(const GroupData& data, int element, const double* K, Tangent& tangent) {
   const int place = data.first_element + element;
-  if (data.moved[element])
-    tangent.add(place, data.dofs_of(element), K);
-  else
-    tangent.add(place, K);
+  tangent.add(place, K);
+  if (data.moved[element]) tangent.couple(data.dofs_of(element), K);
 }
 
 template <class Elements, class Kept>

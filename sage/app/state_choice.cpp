@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "sage/analysis/loads.hpp"
+#include "sage/analysis/external_loads.hpp"
 #include "sage/model/activity.hpp"
 
 namespace sage::app {

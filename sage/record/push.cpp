@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "sage/analysis/loads.hpp"
+#include "sage/analysis/external_loads.hpp"
 #include "sage/model/strength.hpp"
 
 namespace sage {

@@ -8,8 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "sage/analysis/external_loads.hpp"
 #include "sage/analysis/flow_through.hpp"
-#include "sage/analysis/loads.hpp"
 #include "sage/analysis/pore_steps.hpp"
 #include "sage/record/nodal_values.hpp"
 #include "sage/record/number.hpp"

@@ -10,8 +10,8 @@
 #include <functional>
 #include <set>
 
+#include "sage/analysis/external_loads.hpp"
 #include "sage/analysis/initial_balance.hpp"
-#include "sage/analysis/loads.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/deck/read_deck.hpp"

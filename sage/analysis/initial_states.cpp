@@ -1,4 +1,4 @@
-#include "sage/analysis/loads.hpp"
+#include "sage/analysis/initial_states.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,62 +12,6 @@
 namespace sage {
 
 namespace {
-
-// Adds loads of single elements to those of all dofs.
-class LoadSum {
- public:
-  LoadSum(const Model& model, const DofMap& dof_map, Eigen::VectorXd& force)
-      : model_(model), dof_map_(dof_map), force_(force) {}
-
-  // add(x, f): the element's load onto f, which is zero.
-  template <class Add>
-  void add(const Group& group, int element, Add add_load) {
-    element_coordinates(model_.mesh, group, element, x_);
-    f_.assign(group.element->traits().dofs, 0.0);
-    add_load(x_, f_);
-    dof_map_.list(group, element, dofs_);
-    for (std::size_t i = 0; i < dofs_.size(); ++i) force_[dofs_[i]] += f_[i];
-  }
-
- private:
-  const Model& model_;
-  const DofMap& dof_map_;
-  Eigen::VectorXd& force_;
-  Eigen::Matrix2Xd x_;
-  std::vector<double> f_;
-  std::vector<int> dofs_;
-};
-
-// Of the active groups (a flag each).
-void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage, LoadSum& sum) {
-  for (const EdgeLoad& load : stage.pressures) {
-    if (!active[load.group]) continue;
-    const Group& group = model.groups[load.group];
-    sum.add(group, load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
-      group.element->edge_load(x, load.edge, load.normal, load.shear, f);
-    });
-  }
-}
-
-void add_body_forces(const Model& model, const Group& group, const Vector2& gravity, LoadSum& sum) {
-  const Vector2 b = gravity * weight_density(model, group);
-  if (b.isZero(0.0)) return;
-  for (int e = 0; e < group.elements(); ++e)
-    sum.add(group, e,
-            [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) { group.element->body_load(x, b, f); });
-}
-
-// Point loads of a stage, in every field.
-void add_point_loads(const Stage& stage, const DofMap& map, Eigen::VectorXd& force) {
-  for (const NodalLoad& load : stage.loads) force.segment<2>(DofMap::displacement(load.node)) += load.force;
-  for (const FieldLoad& load : stage.field_loads)
-    force[map.of(load.node, load.field)] += added_at(load, 1.0, stage.duration);
-}
-
-void drop_inactive(const std::vector<char>& active, Eigen::VectorXd& force) {
-  for (Eigen::Index dof = 0; dof < force.size(); ++dof)
-    if (!active[dof]) force[dof] = 0.0;
-}
 
 // Compression-positive vertical and horizontal stress at a level.
 Vector4 geostatic_stress(const InitialStress& initial, double y, double u) {
@@ -167,107 +111,6 @@ bool start_point_with(const Law<N>& law, const InitialStress& initial, std::size
     if (!std::isnan(initial.value[i])) h[first + i - 1] = inward(quantities[first + i - 1], initial.value[i]);
   return law.accepts_history(Vector<N>::Map(state.committed.sigma.data() + point * N), h);
 }
-
-}  // namespace
-
-Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity) {
-  const DofMap map(model);
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(map.dofs());
-  LoadSum sum(model, map, force);
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (groups[g]) add_body_forces(model, model.groups[g], gravity, sum);
-  return force;
-}
-
-Eigen::VectorXd external_force(const Model& model, int last) {
-  const auto stages = std::span(model.stages).first(static_cast<std::size_t>(last) + 1);
-  const auto changes = [](const Stage& stage) { return !stage.births.empty() || !stage.deaths.empty(); };
-  const bool lasting = std::none_of(model.stages.begin(), model.stages.end(), changes);
-  Activity activity(model);
-  std::vector<std::vector<char>> active_groups;  // groups, stage by stage
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
-  Vector2 gravity = Vector2::Zero();
-  for (const Stage& stage : stages) {
-    activity.enter(stage);
-    active_groups.push_back(activity.group);
-    gravity += stage.gravity;
-    add_point_loads(stage, activity.dof_map, force);
-    if (!lasting) drop_inactive(active_dofs(model, activity), force);
-  }
-  // A group is activated once: what it had in the stage of the card and has at the end, it had between.
-  LoadSum sum(model, activity.dof_map, force);
-  for (std::size_t s = 0; s < active_groups.size(); ++s) {
-    std::vector<char>& groups = active_groups[s];
-    for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = groups[g] && activity.group[g];
-    add_edge_loads(model, groups, stages[s], sum);
-  }
-  return force + weight_of(model, activity.group, gravity);
-}
-
-std::vector<FollowedEdge> followed_edges(const Model& model, int stage, int group) {
-  std::vector<FollowedEdge> edges;
-  Activity activity(model);
-  for (int s = 0; s <= stage; ++s) {
-    const Stage& now = model.stages[s];
-    activity.enter(now);
-    if (!activity.group[group]) continue;
-    for (const EdgeLoad& load : now.pressures) {
-      if (load.group != group) continue;
-      auto at = std::ranges::find_if(edges, [&](const FollowedEdge& edge) {
-        return edge.element == load.element && edge.end.edge == load.edge;
-      });
-      if (at == edges.end()) {
-        const EdgeTraction none{.edge = load.edge};
-        at = edges.insert(edges.end(), FollowedEdge{load.element, none, none});
-      }
-      for (EdgeTraction* sum : {s < stage ? &at->start : nullptr, &at->end}) {
-        if (sum == nullptr) continue;
-        sum->normal += load.normal;
-        sum->shear += load.shear;
-      }
-    }
-  }
-  std::ranges::stable_sort(edges, {}, &FollowedEdge::element);
-  return edges;
-}
-
-Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity) {
-  Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
-  const Stage& now = model.stages[stage];
-  add_point_loads(now, activity.dof_map, force);
-  if (!force.isZero(0.0)) drop_inactive(active_dofs(model, activity), force);
-  LoadSum sum(model, activity.dof_map, force);
-  add_edge_loads(model, activity.group, now, sum);
-  return force;
-}
-
-Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map) {
-  Eigen::VectorXd rate = Eigen::VectorXd::Zero(map.dofs());
-  for (const Fixity& f : stage.fixities)
-    for (std::size_t c = 0; c < 2; ++c)
-      if (f.code[c] == FixityCode::fixed) rate[DofMap::displacement(f.node, static_cast<int>(c))] = f.value[c];
-  for (const FieldFixity& f : stage.field_fixities)
-    if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed)
-      rate[dof] = added_at(f, 1.0, stage.duration);
-  return rate;
-}
-
-Eigen::VectorXd supported_values(const Model& model, int stage, const DofMap& map) {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(map.dofs());
-  for (const Stage& before : std::span(model.stages).first(static_cast<std::size_t>(stage))) {
-    values += prescribed_rate(before, map);
-    for (const FieldFixity& f : before.field_fixities)
-      if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::released)
-        values[dof] = 0.0;
-  }
-  const Stage& now = model.stages[stage];
-  for (const FieldFixity& f : now.field_fixities)
-    if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed)
-      values[dof] += added_at(f, 0.0, now.duration);
-  return values;
-}
-
-namespace {
 
 // What a geostatic card takes from the total stress at a point; of an interface that of its neighbour.
 double pressure_at(const Model& model, const PorePressure* water, const GroupData& data,
@@ -475,11 +318,6 @@ void apply_drainage(const Model& model, int stage, std::vector<GroupData>& group
     if (changes_drainage(card, stage))
       for (std::size_t g = 0; g < groups.size(); ++g)
         if (card.group < 0 || card.group == static_cast<int>(g)) take_drainage(card, groups[g]);
-}
-
-Eigen::VectorXd water_of(const Model& model, const Activity& activity, const PorePressure* water) {
-  if (water == nullptr || !water->any()) return Eigen::VectorXd::Zero(activity.dof_map.dofs());
-  return water_force(model, activity, *water);
 }
 
 }  // namespace sage
