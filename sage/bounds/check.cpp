@@ -1,8 +1,9 @@
 #include "sage/bounds/check.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "sage/math/dense.hpp"
 
 namespace sage::bounds {
 
@@ -31,7 +32,7 @@ Check check_velocity(const ConeProgram& program, const Eigen::VectorXd& u) {
   for (std::size_t c = 0; c < program.cones.size(); ++c) {
     const Cone& cone = program.cones[c];
     const auto k = static_cast<Eigen::Index>(c);
-    const Matrix3 back = Eigen::CompleteOrthogonalDecomposition<Matrix3>(cone.G).pseudoInverse();
+    const Matrix3 back = dense_matrix::pseudo_inverse(cone.G);
     Vector3 z = back.transpose() * e.col(k);
     residual = std::max(residual, (e.col(k) - cone.G.transpose() * z).cwiseAbs().maxCoeff());
     const double bent = std::hypot(z[1], z[2]);

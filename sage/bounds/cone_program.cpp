@@ -1,8 +1,9 @@
 #include "sage/bounds/cone_program.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+
+#include "sage/math/dense.hpp"
 
 namespace sage::bounds {
 
@@ -164,7 +165,7 @@ void InteriorPoint::start() {
   for (std::size_t c = 0; c < p_.cones.size(); ++c) {
     const Matrix3& G = p_.cones[c].G;
     flat_[c] = G.row(0).isZero();
-    left_inverse_[c] = Eigen::CompleteOrthogonalDecomposition<Matrix3>(G).pseudoInverse();
+    left_inverse_[c] = dense_matrix::pseudo_inverse(G);
     kernel_[c] = Matrix3::Identity() - left_inverse_[c] * G;
     if (kernel_[c].norm() < 1e-8) kernel_[c].setZero();
   }

@@ -1,8 +1,9 @@
 #include "sage/bounds/dependent_equations.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <map>
+
+#include "sage/math/dense.hpp"
 
 namespace sage::bounds {
 
@@ -43,11 +44,9 @@ std::vector<int> dependent_equations(const ConeProgram& program, const std::vect
         Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(column.size()), static_cast<Eigen::Index>(row.size()));
     for (const Term& term : terms) transposed(column.at(term.column), row.at(term.equation)) = term.value;
     transposed.colwise().normalize();
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
-    qr.setThreshold(kRounding);
+    const std::vector<Eigen::Index> columns = dense_matrix::dependent_columns(transposed, kRounding);
     for (const auto& [equation, place] : row)
-      for (Eigen::Index k = qr.rank(); k < transposed.cols(); ++k)
-        if (qr.colsPermutation().indices()[k] == place) dependent.push_back(equation);
+      if (std::ranges::find(columns, place) != columns.end()) dependent.push_back(equation);
   }
   return dependent;
 }

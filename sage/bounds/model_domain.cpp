@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "sage/math/dense.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/spread_loads.hpp"
 #include "sage/model/water.hpp"
@@ -408,7 +408,7 @@ class GroundMaker {
           *loaded[i], row, [&](std::size_t end) { return unknown(i, end); }, A);
     Eigen::MatrixXd F(A.rows(), 2);
     for (const auto& [n, force] : forces) F.row(row.at(n)) = force.transpose();
-    const Eigen::MatrixXd t = A.completeOrthogonalDecomposition().solve(F);
+    const Eigen::MatrixXd t = dense_matrix::smallest_solutions(A, F);
     if ((A * t - F).cwiseAbs().maxCoeff() > 1e-4 * F.cwiseAbs().maxCoeff()) return false;
     for (std::size_t i = 0; i < loaded.size(); ++i) {
       Boundary& one = boundary(*loaded[i]);

@@ -55,6 +55,28 @@ Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorX
   return decomposition.compute(A).solve(b);
 }
 
+Eigen::MatrixXd smallest_solutions(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
+  return A.completeOrthogonalDecomposition().solve(B);
+}
+
+Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& A) {
+  return Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d>(A).pseudoInverse();
+}
+
+std::vector<Eigen::Index> dependent_columns(const Eigen::MatrixXd& A, double threshold) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(A);
+  qr.setThreshold(threshold);
+  const auto order = qr.colsPermutation().indices().cast<Eigen::Index>();
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = qr.rank(); k < A.cols(); ++k) columns.push_back(order[k]);
+  return columns;
+}
+
+EigensystemOf<3> symmetric_eigensystem_3(const Eigen::Matrix3d& A) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 Eigensystem symmetric_eigensystem(const Eigen::MatrixXd& A) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
   return {solver.eigenvalues(), solver.eigenvectors()};

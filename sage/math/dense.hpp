@@ -31,13 +31,26 @@ class PivotedQr {
 // `threshold` times the largest are zero.
 Eigen::VectorXd smallest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, double threshold);
 
-struct Eigensystem {
-  Eigen::VectorXd values;   // rising
-  Eigen::MatrixXd vectors;  // a column each, of length 1
+// The same for each column of B.  Pivots below rounding are zero.
+Eigen::MatrixXd smallest_solutions(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+// Of Moore and Penrose, of any rank.
+Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& A);
+
+// Columns of A that are combinations of the others, by elimination with the longest column that is left first.  Pivots below
+// `threshold` times the largest are zero.
+std::vector<Eigen::Index> dependent_columns(const Eigen::MatrixXd& A, double threshold);
+
+template <int N>
+struct EigensystemOf {
+  Eigen::Matrix<double, N, 1> values;   // rising
+  Eigen::Matrix<double, N, N> vectors;  // a column each, of length 1
 };
+using Eigensystem = EigensystemOf<Eigen::Dynamic>;
 
 // Of a symmetric matrix; its lower triangle is read.
 Eigensystem symmetric_eigensystem(const Eigen::MatrixXd& A);
+EigensystemOf<3> symmetric_eigensystem_3(const Eigen::Matrix3d& A);
 
 template <class Values>
 void PivotedQr::least_squares(Values& B, Values& X) const {

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <Eigen/Eigenvalues>
-
+#include "sage/math/dense.hpp"
 #include "sage/model/joined.hpp"
 
 namespace sage {
@@ -130,8 +129,8 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
     if (model.geometry == Geometry::axisymmetric) {
       if (gram[p](1, 1) == 0.0) motion = "a rigid translation along the axis";
     } else {
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(gram[p]);
-      if (eigen.eigenvalues()[0] < 1e-10) motion = mode_name(eigen.eigenvectors().col(0));
+      const dense_matrix::EigensystemOf<3> modes = dense_matrix::symmetric_eigensystem_3(gram[p]);
+      if (modes.values[0] < 1e-10) motion = mode_name(modes.vectors.col(0));
     }
     if (!motion.empty()) loose.push_back({static_cast<int>(p), motion});
   }

@@ -1,11 +1,12 @@
 #include "sage/sweep/draws.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
+
+#include "sage/math/dense.hpp"
 
 namespace sage::sweep {
 
@@ -23,8 +24,8 @@ const NormalRule& normal_rule() {
     constexpr int kPoints = 32;
     Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(kPoints, kPoints);
     for (int i = 1; i < kPoints; ++i) jacobi(i, i - 1) = jacobi(i - 1, i) = std::sqrt(static_cast<double>(i));
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
-    return NormalRule{solver.eigenvalues(), solver.eigenvectors().row(0).cwiseAbs2().transpose()};
+    const dense_matrix::Eigensystem modes = dense_matrix::symmetric_eigensystem(jacobi);
+    return NormalRule{modes.values, modes.vectors.row(0).cwiseAbs2().transpose()};
   }();
   return rule;
 }
