@@ -26,6 +26,7 @@ Solved solve_one(const Domain& domain, const Edges& edges, Quantity quantity, Si
       side == Side::primal ? lower_program(domain, edges, quantity) : upper_program(domain, edges, quantity);
   ConeOptions cone;
   cone.side = side;
+  cone.gap = options.accuracy;
   cone.stop_asked = options.stop_asked;
   one.solution = solve(one.program.program, cone);
   if (one.solved())
@@ -245,7 +246,7 @@ std::vector<double> gap_by_triangle(const Domain& domain, const Solved& lower, c
   return gap;
 }
 
-// The triangles with most of the gap, at most so many.
+// The triangles with most of the gap: one at least, and at most so many.
 std::vector<char> mark(const std::vector<double>& gap, int most) {
   constexpr double kShare = 0.6;
   std::vector<int> order(gap.size());
@@ -255,11 +256,36 @@ std::vector<char> mark(const std::vector<double>& gap, int most) {
   const double total = std::accumulate(gap.begin(), gap.end(), 0.0);
   std::vector<char> marked(gap.size(), 0);
   double sum = 0.0;
-  for (int i = 0; i < most && i < static_cast<int>(order.size()) && sum < kShare * total; ++i) {
+  for (int i = 0; i < most && i < static_cast<int>(order.size()) && (i == 0 || sum < kShare * total); ++i) {
     marked[at(order[at(i)])] = 1;
     sum += gap[at(order[at(i)])];
   }
   return marked;
+}
+
+// Divides triangles until there are about so many.  A slip line crosses ever more triangles of size h, each with a gap of
+// h^2: where triangles are divided, the gap to come goes with area^1.5.
+void refine_to(Domain& domain, std::vector<double> gap, int elements) {
+  for (int now = static_cast<int>(domain.triangles.size()); now < elements;
+       now = static_cast<int>(domain.triangles.size())) {
+    std::vector<double> area;
+    for (const Triangle& t : domain.triangles) area.push_back(domain.area(t));
+    // A marked triangle makes two or three more.
+    const std::vector<int> parents = refine(domain, mark(gap, (elements - now) / 2 + 1));
+    std::vector<double> expected(parents.size());
+    for (std::size_t t = 0; t < parents.size(); ++t)
+      expected[t] =
+          gap[at(parents[t])] * std::pow(domain.area(domain.triangles[t]) / area[at(parents[t])], 1.5);
+    gap = std::move(expected);
+  }
+}
+
+// Meshes grow by equal factors, so that all of them cost little more than the last.
+int next_size(int now, int elements) {
+  constexpr double kGrowth = 1.5;  // at most, about
+  const double ratio = static_cast<double>(elements) / now;
+  return static_cast<int>(
+      std::ceil(now * std::pow(ratio, 1.0 / std::ceil(std::log(ratio) / std::log(kGrowth)))));
 }
 
 void keep_fields(Bounds& all, const Solved& lower, const Solved& upper) {
@@ -295,7 +321,10 @@ void solve_round(Bounds& all, const Options& options, bool last, double& factor)
   } else {
     // What a coarse mesh is refined for needs no more than a rough factor.
     Options rough = options;
-    if (!last) rough.tolerance = std::max(0.005, options.tolerance);
+    if (!last) {
+      rough.tolerance = std::max(0.005, options.tolerance);
+      rough.accuracy = std::max(1e-3, options.accuracy);
+    }
     lower = bound_factor(all.domain, all.edges, Side::primal, rough, factor, all.lower);
     if (all.lower.value) factor = *all.lower.value * 1.005;
     upper = bound_factor(all.domain, all.edges, Side::dual, rough, factor, all.upper);
@@ -331,7 +360,6 @@ Domain reduced(Domain domain, double factor) {
 }
 
 Bounds find_bounds(const Domain& domain, const Options& options) {
-  constexpr double kGrowth = 1.5;  // of the number of triangles from mesh to mesh, about
   Bounds all;
   all.domain = domain;
   if (options.elements > 0) fan_out(all.domain, 2);
@@ -342,12 +370,8 @@ Bounds find_bounds(const Domain& domain, const Options& options) {
     const auto gap = all.relative_gap();
     if (last || all.stopped || all.gap.empty()) break;
     if (gap && *gap <= options.gap && options.quantity == Quantity::load) break;
-    const int now = static_cast<int>(all.domain.triangles.size());
-    // A marked triangle makes two or three more.
-    const int most =
-        std::max(1, static_cast<int>(std::min(kGrowth * now, 1.0 * options.elements) - now) / 2 + 1);
     if (gap) best = all;
-    refine(all.domain, mark(all.gap, most));
+    refine_to(all.domain, all.gap, next_size(static_cast<int>(all.domain.triangles.size()), options.elements));
     last = static_cast<int>(all.domain.triangles.size()) >= 0.95 * options.elements ||
            (gap && *gap <= options.gap);
   }

@@ -13,6 +13,7 @@ struct Options {
   int elements = 2000;      // the mesh is refined until it has about so many triangles; 0 = as it is
   double gap = 0.01;        // or until the bounds are so close, relative to their mean
   double tolerance = 1e-4;  // relative, of a factor of safety
+  double accuracy = 1e-5;   // relative, of the optimum of each program
   double smallest = 0.05, largest = 20.0;  // factors of safety that are tried
   std::function<bool()> stop_asked;
 };

@@ -114,9 +114,13 @@ class InteriorPoint {
   Vector3 moved(std::size_t c, Vector3 q) const;
   void factorise(double soft);
   Residuals residuals() const;
+  // Residuals of systems of equations, relative.
+  static constexpr double kExact = 1e-15;
+  static constexpr double kRough = 1e-6;  // of a step that only guides another
+
   // The Newton step to the residuals' end with the complementarity product(lambda, W dz + W^-1 ds) = target.
-  Direction direction(const Residuals& r, const Stresses& target) const;
-  void solve_refined(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  Direction direction(const Residuals& r, const Stresses& target, double enough) const;
+  void solve_refined(const Eigen::VectorXd& right, Eigen::VectorXd& x, double enough) const;
   Eigen::VectorXd multiply(const Eigen::VectorXd& x) const;
   double step_of(const Stresses& from, const Stresses& along) const;
   void advance(const Direction& d, double primal, double dual);
@@ -225,7 +229,7 @@ void InteriorPoint::factorise(double soft) {
       },
       kNegligible);
   column_ = p_.b1 - forces(p_, h1_moved_);
-  solve_refined(column_, column_answer_);
+  solve_refined(column_, column_answer_, kExact);
 }
 
 Eigen::VectorXd InteriorPoint::multiply(const Eigen::VectorXd& x) const {
@@ -234,12 +238,12 @@ Eigen::VectorXd InteriorPoint::multiply(const Eigen::VectorXd& x) const {
   return forces(p_, e);
 }
 
-void InteriorPoint::solve_refined(const Eigen::VectorXd& right, Eigen::VectorXd& x) const {
+void InteriorPoint::solve_refined(const Eigen::VectorXd& right, Eigen::VectorXd& x, double enough) const {
   x = right;
   factor_.solve(x);
   Eigen::VectorXd rest = right - multiply(x);
   double last = rest.norm();
-  for (int step = 0; step < 3 && last > 1e-15 * right.norm(); ++step) {
+  for (int step = 0; step < 3 && last > enough * right.norm(); ++step) {
     Eigen::VectorXd correction = rest;
     factor_.solve(correction);
     const Eigen::VectorXd next = x + correction;
@@ -267,7 +271,7 @@ Residuals InteriorPoint::residuals() const {
   return r;
 }
 
-Direction InteriorPoint::direction(const Residuals& r, const Stresses& target) const {
+Direction InteriorPoint::direction(const Residuals& r, const Stresses& target, double enough) const {
   Direction d;
   const auto cones = static_cast<Eigen::Index>(p_.cones.size());
   Stresses q(3, cones), start(3, cones);  // start: the stresses without dy and d.tau
@@ -282,7 +286,7 @@ Direction InteriorPoint::direction(const Residuals& r, const Stresses& target) c
   }
   const Eigen::VectorXd right = forces(p_, start) - r.y;
   Eigen::VectorXd answer;
-  solve_refined(right, answer);
+  solve_refined(right, answer, enough);
   d.tau = (R2 + column_.dot(answer)) / (kappa_ + column_.dot(column_answer_));
   d.y = answer - d.tau * column_answer_;
   const Stresses e = strains(p_, d.y);
@@ -342,8 +346,8 @@ void InteriorPoint::iterate_once(bool keep_centre) {
   if (keep_centre)
     target.row(0).array() += mu;
   else
-    correct(direction(r, target), mu, target);
-  const Direction d = direction(r, target);
+    correct(direction(r, target, kRough), mu, target);
+  const Direction d = direction(r, target, kExact);
   const double keep = 0.98;
   const double primal = std::min(1.0, keep * step_of(s_, d.s)), dual = std::min(1.0, keep * step_of(z_, d.z));
   last_step_ = std::min(primal, dual);
@@ -421,7 +425,7 @@ void InteriorPoint::mend() {
       r.y.setZero();
       r.s.setZero();
     }
-    const Direction d = direction(r, Stresses::Zero(3, s_.cols()));
+    const Direction d = direction(r, Stresses::Zero(3, s_.cols()), kExact);
     if (primal)
       advance(d, std::min(1.0, 0.9 * step_of(s_, d.s)), 0.0);
     else

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 namespace sage::bounds {
@@ -18,7 +19,8 @@ std::pair<int, int> pair_of(int a, int b) {
 // compared by length and then by their nodes.
 class Bisection {
  public:
-  explicit Bisection(Domain& domain) : d_(domain) {
+  explicit Bisection(Domain& domain) : d_(domain), parents_(domain.triangles.size()) {
+    std::iota(parents_.begin(), parents_.end(), 0);
     for (std::size_t t = 0; t < d_.triangles.size(); ++t) enter(static_cast<int>(t));
     for (std::size_t i = 0; i < d_.boundary.size(); ++i)
       boundary_[pair_of(d_.boundary[i].a, d_.boundary[i].b)] = static_cast<int>(i);
@@ -47,6 +49,9 @@ class Bisection {
         return;
       }
   }
+
+  // By triangle: the one that it was a part of.
+  std::vector<int> parents() const { return parents_; }
 
  private:
   using Key = std::pair<int, int>;
@@ -154,6 +159,7 @@ class Bisection {
       }
     d_.triangles[at(t)] = one;
     d_.triangles.push_back(two);
+    parents_.push_back(parents_[at(t)]);
     enter(t);
     enter(static_cast<int>(d_.triangles.size()) - 1);
   }
@@ -175,6 +181,7 @@ class Bisection {
   }
 
   Domain& d_;
+  std::vector<int> parents_;
   std::map<Key, std::array<int, 2>> owners_;
   std::map<Key, int> boundary_, joint_;
 };
@@ -297,12 +304,13 @@ Edges edges_of(const Domain& domain) {
   return edges;
 }
 
-void refine(Domain& domain, const std::vector<char>& marked) {
+std::vector<int> refine(Domain& domain, const std::vector<char>& marked) {
   // A marked triangle may have been divided before its turn comes: its first half keeps its place in the list.
   std::vector<Triangle> before = domain.triangles;
   Bisection bisection(domain);
   for (std::size_t t = 0; t < marked.size(); ++t)
     if (marked[t] && domain.triangles[t].node == before[t].node) bisection.divide(static_cast<int>(t));
+  return bisection.parents();
 }
 
 }  // namespace sage::bounds

@@ -99,8 +99,9 @@ struct Edges {
 };
 Edges edges_of(const Domain& domain);
 
-// Divides the marked triangles by their longest edges, and others as far as no node hangs.
-void refine(Domain& domain, const std::vector<char>& marked);
+// Divides the marked triangles by their longest edges, and others as far as no node hangs.  Returns for each triangle of
+// the new mesh the index of the old one that it is a part of.
+std::vector<int> refine(Domain& domain, const std::vector<char>& marked);
 
 // Where tractions or supports change along a side, stresses turn about a node.  Bisection by longest edges leaves such a
 // node the few triangles that it has; here their angles are halved, so many times.
