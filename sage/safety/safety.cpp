@@ -25,8 +25,8 @@ constexpr int kFiner = 3;  // times the increments of the stages; Start::anew
 // Ends of the bracket that stay undecided before the search is given up: another factor beside them may find its end.
 constexpr int kMostUndecided = 6;
 constexpr double kBeside = 0.6;  // of the way to a factor that stayed undecided
-// Of the stages with the first factor: a lower one follows, and it is tried again.
-constexpr int kCutsOfFirstRun = 3;
+// Of the stages with a factor on the way down: a lower one follows, and what failed is tried again from there.
+constexpr int kCutsOfDescent = 3;
 
 struct Largest {
   double displacement = 0.0;
@@ -362,8 +362,8 @@ void Finder::run_from_start(double factor) {
   RunSettings settings = settings_;
   if (options_.start == Start::anew && repeated_ != factor)
     settings.max_cuts = std::min(settings.max_cuts, options_.cuts);
-  if (safety_.trials.empty() && options_.start == Start::carried)
-    settings.max_cuts = std::min(settings.max_cuts, kCutsOfFirstRun);
+  if (options_.start == Start::carried && factor > options_.limits.smallest)
+    settings.max_cuts = std::min(settings.max_cuts, kCutsOfDescent);
   const RunResult result = [&] {
     const Profile::Scope scope(safety_.profile, phase::kAnalysis);
     RunResult of_run = run(model_, catalogue_, settings, observers);

@@ -147,7 +147,7 @@ Answer find_factor(const scenes::DeckWriter& deck, std::vector<ModelPart> reduce
   Options options;
   options.reduce = std::move(reduce);
   options.limits.start = start;
-  if (test::kSanitized) options.limits.tolerance = 0.05;
+  options.limits.tolerance = test::kSanitized ? 0.05 : 0.01;
   Answer answer{find_safety(model, bench.catalogue(), bench.settings(), options)};
   answer.found.mechanism.reset();  // it refers to the model
   if (answer.found.failing.empty()) return answer;
