@@ -354,7 +354,7 @@ Command bounds_command(CLI::App& parser, const Catalogue& catalogue) {
       "the deck's psi");
   parser
       .add_option("--tolerance", o->limits.tolerance,
-                  "with --safety: width of the bracket of finite elements (default 0.01)")
+                  "with --safety: width of the bracket of finite elements (default 0.005)")
       ->check(number_in(1e-8, 1.0, "a width from 1e-8 to 1"));
   add_threads_option(parser, o->threads);
   add_digits_option(parser, o->digits);

@@ -294,7 +294,7 @@ void add_search_options(CLI::App& parser, SafetyOptions& o) {
   parser.add_option("--stage", o.stage, "the last stage that is run, from 1 (default: the deck's last)")
       ->check(CLI::Range(1, 100'000));
   parser
-      .add_option("--tolerance", limits.tolerance, "width of the bracket that ends the search (default 0.01)")
+      .add_option("--tolerance", limits.tolerance, "width of the bracket that ends the search (default 0.005)")
       ->check(number_in(1e-8, 1.0, "a width from 1e-8 to 1"));
   parser
       .add_option("--start", limits.start,
@@ -370,7 +370,7 @@ void add_choice_options(CLI::App& parser, SafetyOptions& o) {
 constexpr const char* kSafetyExamples =
     "Examples:\n"
     "  sagefe safety slope.dat\n"
-    "      both ends of a bracket of 0.01 for the factor, the reason for each, curve and mechanism\n"
+    "      both ends of a bracket of 0.005 for the factor, the reason for each, curve and mechanism\n"
     "  sagefe safety wall.dat --stage 3 --reduce soil,joints --tolerance .005\n"
     "  sagefe safety slope.dat --converge .01\n"
     "      finer and finer meshes, until the factor changes by less than 1 %";

@@ -7,8 +7,8 @@
 namespace sage::safety {
 
 struct SearchLimits {
-  double start = 1.0;       // first factor
-  double tolerance = 0.01;  // widest bracket that ends the search
+  double start = 1.0;        // first factor
+  double tolerance = 0.005;  // widest bracket that ends the search
   double smallest = 0.05, largest = 20.0;
 };
 
