@@ -282,7 +282,7 @@ void refine_to(Domain& domain, std::vector<double> gap, int elements) {
 
 // Meshes grow by equal factors, so that all of them cost little more than the last.
 int next_size(int now, int elements) {
-  constexpr double kGrowth = 1.5;  // at most, about
+  constexpr double kGrowth = 1.4;  // at most, about
   const double ratio = static_cast<double>(elements) / now;
   return static_cast<int>(
       std::ceil(now * std::pow(ratio, 1.0 / std::ceil(std::log(ratio) / std::log(kGrowth)))));
