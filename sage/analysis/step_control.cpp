@@ -9,6 +9,17 @@
 
 namespace sage {
 
+namespace {
+
+// Behind a step that had to be relaxed, Newton's method finds some steps and not others.  The ones that it finds lie on another
+// path: loads that alternate between the two swing more than those of either.
+// refused_at: load factor from which no motion came to rest.
+bool stays_relaxed(const RunParts& run, double refused_at) {
+  return run.settings.trials == nullptr && run.state.path.relaxed > 0 && refused_at != run.state.reached;
+}
+
+}  // namespace
+
 StepControl::StepControl(const RunParts& run)
     : run_(run),
       stepper_(run),
@@ -98,6 +109,13 @@ bool StepControl::advance(StepReport& report, double end, double whole) {
     const double to = size >= end - state.reached - 1e-12 * whole ? end : state.reached + size;
     const double tried = to - state.reached;
     run_.show_progress(report, state.reached);
+    if (stays_relaxed(run_, refused_at_)) {
+      if (relax(report, end)) {
+        size = end - state.reached;
+        continue;
+      }
+      reject(0.0);
+    }
     const bool went_on = state.path.policy->begins_elsewhere(run_, tried);
     NewtonStep step = search_.attempt(state.reached, to);
     damped_.doubt(step);
