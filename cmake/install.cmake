@@ -17,6 +17,9 @@ file(READ ${PROJECT_SOURCE_DIR}/LICENSE license)
 file(READ ${PROJECT_SOURCE_DIR}/NOTICE notice)
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/copyright CONTENT "@license@\n\n@notice@" @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/sagefe)
+if(TARGET sage_python)
+  install(FILES ${PROJECT_BINARY_DIR}/copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-sagefe COMPONENT python)
+endif()
 install(DIRECTORY sage/app/templates DESTINATION ${CMAKE_INSTALL_DATADIR}/sagefe)
 
 # Headers keep their paths: #include "sage/core/law.hpp".  Those whose library is in the package, no others.
