@@ -329,8 +329,7 @@ Command bounds_command(CLI::App& parser, const Catalogue& catalogue) {
       .add_option_function<std::string>(
           "--of", [o](const std::string& name) { o->wanted = wanted.at(name); },
           "what is bounded: load (multiplier of what the stage adds), strength (factor of safety), auto (the "
-          "default: "
-          "load where the stage adds loads or moves supports)")
+          "default: load if the stage adds loads or moves supports, else strength)")
       ->check(CLI::IsMember(wanted));
   parser
       .add_option("--stage", o->stage,
@@ -341,17 +340,17 @@ Command bounds_command(CLI::App& parser, const Catalogue& catalogue) {
                   "first stage whose loads are multiplied, from 1 (default: that of --stage)")
       ->check(CLI::Range(1, 100'000));
   parser
-      .add_option(
-          "--elements", o->search.elements,
-          "triangles up to which the mesh is refined where the bounds part (default 2000; 0: not refined)")
+      .add_option("--elements", o->search.elements,
+                  "number of triangles up to which the mesh is refined where the bounds differ (default 2000; "
+                  "0: no refinement)")
       ->check(CLI::Range(0, 200'000));
   parser
-      .add_option("--gap", o->search.gap, "relative distance of the bounds that ends refining (default 0.01)")
+      .add_option("--gap", o->search.gap,
+                  "relative difference of the bounds at which refining ends (default 0.01)")
       ->check(number_in(1e-4, 1.0, "a relative distance from 0.0001 to 1"));
-  parser.add_flag(
-      "--safety", o->safety,
-      "finite elements beside the bounds: factor of safety by strength reduction with psi = phi and with "
-      "the deck's psi");
+  parser.add_flag("--safety", o->safety,
+                  "add finite elements: factor of safety by strength reduction with psi = phi and with "
+                  "the deck's psi");
   parser
       .add_option("--tolerance", o->limits.tolerance,
                   "with --safety: width of the bracket of finite elements (default 0.005)")

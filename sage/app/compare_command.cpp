@@ -431,7 +431,7 @@ Command compare_command(CLI::App& parser, const Catalogue& catalogue) {
       .add_option("--line", o->lines,
                   "x1,y1,x2,y2[:name[:n]]: displacement and stress at n places (default 11); may be repeated")
       ->allow_extra_args(false);
-  add_converge_options(parser, o->converge, "of each side, ");
+  add_converge_options(parser, o->converge, "for each side, ");
   add_digits_option(parser, o->digits);
   add_field_options(parser, o->pictures, o->fields, "SVG of both sides on one scale of colours",
                     "lines and reports of points");

@@ -181,8 +181,8 @@ void add_umat_options(CLI::App& parser, ConformOptions& options) {
 
 Command conform_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<ConformOptions>();
-  parser.add_option("LIBRARY", options->libraries, "plug-ins whose pieces are tried");
-  parser.add_option("--only", options->only, "checks whose name has this text");
+  parser.add_option("LIBRARY", options->libraries, "plug-ins to test");
+  parser.add_option("--only", options->only, "run only checks whose name contains this text");
   add_umat_options(parser, *options);
   const CLI::Option* umats = parser.get_option("--umat");
   parser.footer("Exit codes: 0 all checks hold, 1 the library can't be loaded, 3 a check fails.");

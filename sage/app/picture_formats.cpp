@@ -44,7 +44,7 @@ void convert(const std::filesystem::path& svg, const std::filesystem::path& to, 
 void add_format_option(CLI::App& parser, std::vector<std::string>& formats) {
   parser
       .add_option("--format", formats,
-                  "svg, and besides pdf or png (with rsvg-convert, where it is installed); may be repeated")
+                  "format besides svg: pdf or png (need the program rsvg-convert); may be repeated")
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"svg", "pdf", "png"}));
 }

@@ -158,7 +158,7 @@ void add_curve_options(CLI::App& parser, PlotOptions& options) {
           "displacement for a node report (a footing).  The error of an unknown name lists the known ones")
       ->allow_extra_args(false)
       ->group(kGroupCurves);
-  parser.add_flag("--log-x", options.log_x, "logarithms along the horizontal axis, as of time")
+  parser.add_flag("--log-x", options.log_x, "use a logarithmic horizontal axis, as for time")
       ->group(kGroupCurves);
 }
 
@@ -189,17 +189,17 @@ void add_state_options(CLI::App& parser, PlotOptions& options) {
       ->group(kGroupStates);
   parser
       .add_flag("--sheet", options.sheet,
-                "one file with one panel per picture; panels of one field have one scale")
+                "write one file with one panel per picture; panels of one field share a scale")
       ->group(kGroupStates);
   parser
       .add_option("--line", options.line,
-                  "X,Y:X,Y: the fields as curves along this line instead, one curve per state and file")
+                  "X,Y:X,Y: plot the fields along this line in place of pictures, one curve per state and file")
       ->check(line_error)
       ->group(kGroupStates);
   parser
       .add_flag("--interface", options.interface,
-                "the fields as curves along the interfaces instead (default: traction_normal, traction_shear, "
-                "stress_level)")
+                "plot the fields along the interfaces in place of pictures (default: traction_normal, "
+                "traction_shear, stress_level)")
       ->group(kGroupStates);
 }
 
@@ -208,7 +208,8 @@ void add_look_options(CLI::App& parser, PlotOptions& options) {
   parser
       .add_option_function<std::string>(
           "--range", [&look](const std::string& text) { set_range(look, text); },
-          "of the colours: LOW:HIGH; full; auto (default) leaves out what is rare and far off, and says so")
+          "range of the colours: LOW:HIGH; full; auto (default) omits rare extreme values, and the legend "
+          "notes it")
       ->check([](const std::string& text) {
         try {
           PictureOptions tried;
@@ -219,41 +220,43 @@ void add_look_options(CLI::App& parser, PlotOptions& options) {
         }
       })
       ->group(kGroupLook);
-  parser.add_flag("--own-scales", options.own_scales, "a scale for each panel of the sheet")->group(kGroupLook);
-  parser.add_option("--levels", look.levels, "bands of colour, about (default: 10)")
+  parser.add_flag("--own-scales", options.own_scales, "give each panel of the sheet its own scale")
+      ->group(kGroupLook);
+  parser.add_option("--levels", look.levels, "approximate number of colour bands (default: 10)")
       ->check(CLI::Range(2, 100))
       ->group(kGroupLook);
   parser
       .add_flag_callback(
           "--extrapolate", [&look] { look.rule = NodalRule::extrapolated; },
-          "stresses extrapolated from the integration points to the nodes; else means of elements, as the "
-          "source "
-          "chapter's figures are drawn")
+          "extrapolate stresses from the integration points to the nodes (default: means of elements, as in "
+          "the source chapter's figures)")
       ->group(kGroupLook);
   parser
       .add_flag_callback(
-          "--no-mesh", [&look] { look.mesh = false; }, "no edges of elements")
+          "--no-mesh", [&look] { look.mesh = false; }, "draw no element edges")
       ->group(kGroupLook);
   parser
       .add_flag_callback(
-          "--deformed", [&look] { look.deformed = true; }, "the displaced mesh, magnified")
+          "--deformed", [&look] { look.deformed = true; }, "draw the displaced mesh, magnified")
       ->group(kGroupLook);
   parser
       .add_flag_callback(
-          "--undeformed", [&look] { look.deformed = false; }, "the mesh as it was at the start (default)")
+          "--undeformed", [&look] { look.deformed = false; }, "draw the initial mesh (default)")
       ->group(kGroupLook);
   parser
       .add_option_function<std::string>(
           "--mirror", [&look](const std::string& text) { set_mirror(look, text); },
-          "the other halves of a symmetric model: left (of its left side), down (below its lower side), both")
+          "add the mirrored parts of a symmetric model: left of its left side, down below its lower side, or "
+          "both")
       ->check(CLI::IsMember({"left", "down", "both"}))
       ->group(kGroupLook);
   parser
       .add_flag("--yielded", look.yielded,
-                "integration points, those at strength full: a mean between them hides which have reached it")
+                "draw the integration points, those that have reached the strength filled")
       ->group(kGroupLook);
-  parser.add_flag("--crosses", look.crosses, "principal stresses in the plane")->group(kGroupLook);
-  parser.add_flag("--arrows", look.arrows, "displacements")->group(kGroupLook);
+  parser.add_flag("--crosses", look.crosses, "draw the principal stresses in the plane as crosses")
+      ->group(kGroupLook);
+  parser.add_flag("--arrows", look.arrows, "draw displacements as arrows")->group(kGroupLook);
 }
 
 constexpr const char* kPlotExamples =
@@ -311,10 +314,10 @@ Command plot_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("-o,--output", options->folder, "folder of the pictures (default: that of the first file)");
   parser
       .add_option("--name", options->name,
-                  "name of the file (default: from its content); with .png or .pdf, in that format too")
+                  "name of the file (default: from its content); the ending .png or .pdf adds that format")
       ->check(name_error);
   add_format_option(parser, options->formats);
-  parser.add_option("--title", options->title, "title (default: the deck's, of one file)");
+  parser.add_option("--title", options->title, "title (default, for one file: that of its deck)");
   parser
       .add_option(
           "--label", options->labels,

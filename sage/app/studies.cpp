@@ -69,15 +69,15 @@ Command figures_command(CLI::App& parser, const Catalogue& catalogue) {
                     "folder for pictures, figures.md and figures.csv (default: figures)");
   add_format_option(parser, options->formats);
   parser.add_flag("--list", options->list,
-                  "the figures and the chapter's sentences with their limits, computing nothing");
+                  "list the figures and the chapter's sentences with their limits; compute nothing");
   return [options, &catalogue] { return studies().figures(*options, catalogue); };
 }
 
 Command stress_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<StressOptions>();
-  parser.add_flag("--list", options->list, "the rows and their references; computes nothing");
-  parser.add_option("--only", options->only, "these rows only");
-  parser.add_flag("--details", options->details, "every trial, not only those that failed");
+  parser.add_flag("--list", options->list, "list the rows and their references; compute nothing");
+  parser.add_option("--only", options->only, "compute only these rows");
+  parser.add_flag("--details", options->details, "print every trial, not only those that failed");
   parser.add_option("--csv", options->csv, "write every trial to this file");
   add_page_option(parser, options->page, "write a Markdown page, and plots into a folder beside it",
                   "docs/stress.md");
@@ -86,11 +86,12 @@ Command stress_command(CLI::App& parser, const Catalogue& catalogue) {
 
 Command verify_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<VerifyOptions>();
-  parser.add_flag("--list", options->list, "the cases, computing nothing");
-  parser.add_option("--only", options->only, "cases (or sections) whose name contains this");
-  parser.add_flag("--rows", options->rows, "every row, not only the one closest to its gate");
-  parser.add_option("--csv", options->csv, "all rows as CSV");
-  add_page_option(parser, options->write, "the book as Markdown with plots beside it", "docs/verification.md");
+  parser.add_flag("--list", options->list, "list the cases; compute nothing");
+  parser.add_option("--only", options->only, "compute only cases (or sections) whose name contains this");
+  parser.add_flag("--rows", options->rows, "print every row, not only the one closest to its limit");
+  parser.add_option("--csv", options->csv, "write all rows as CSV to this file");
+  add_page_option(parser, options->write, "write the book as Markdown, with plots beside it",
+                  "docs/verification.md");
   return [options, &catalogue] { return studies().verify(*options, catalogue); };
 }
 
