@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,6 +19,7 @@
 #include "sage/app/surroundings.hpp"
 #include "sage/app/wrap.hpp"
 #include "sage/convergence/convergence.hpp"
+#include "sage/deck/optional_file.hpp"
 #include "sage/model/coarse_shape.hpp"
 #include "sage/record/discretisation.hpp"
 #include "sage/record/out_file.hpp"
@@ -381,11 +380,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 // Meshes of the sequence, one after the other.
 class ConvergenceStudy {
  public:
@@ -623,7 +617,8 @@ bool ConvergenceStudy::add_mesh(int level) {
     return false;
   }
   Row row{outcome->record.scene.elements, DofMap(*outcome->model).dofs(), outcome->record.seconds, {}, mesh};
-  for (const std::filesystem::path& file : outcome->files) row.files.emplace_back(file, bytes_of(file));
+  for (const std::filesystem::path& file : outcome->files)
+    row.files.emplace_back(file, read_file(file.string()));
   if (!table_) start_table(follower_.shown().name);
   table_->row(follower_.meshes(), row, follower_.shown_limit(), follower_.shown().values.back(), mesh.options);
   if (request_.keep_result) row.run = std::make_shared<RunOutcome>(std::move(*outcome));
@@ -639,7 +634,7 @@ void ConvergenceStudy::start_table(const std::string& quantity) {
 // Later meshes have written over them.
 void ConvergenceStudy::keep_best_files() const {
   for (const auto& [path, bytes] : rows_[follower_.best() - 1].files)
-    if (bytes_of(path) != bytes) write_file(path, bytes);
+    if (read_file_if_any(path) != bytes) write_file(path, bytes);
 }
 
 // True if the tolerance was reached.

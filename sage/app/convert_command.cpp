@@ -3,8 +3,6 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "sage/app/answer_run.hpp"
@@ -13,6 +11,7 @@
 #include "sage/app/input.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/deck/read_deck.hpp"
+#include "sage/deck/source.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/exchange/mesh_model.hpp"
@@ -47,9 +46,7 @@ Model read_model(const ConvertOptions& options, const Catalogue& catalogue) {
   if (build.element != 0 || build.refine != 0 || build.refine_graded != 0 || !build.gradings.empty())
     throw InputError("S905", {options.from, 0, 0, 0},
                      "--element, --refine and --grade are for decks: convert to .dat first");
-  std::ifstream in(options.from, std::ios::binary);
-  if (!in) throw InputError("S101", {options.from, 0, 0, 0}, "the file can't be read");
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string text = read_file(options.from);
   ForeignMeshOptions mesh = options.mesh;
   mesh.geometry_given = build.geometry != 0;
   if (build.geometry == 2) mesh.geometry = Geometry::axisymmetric;

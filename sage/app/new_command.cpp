@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/input.hpp"
+#include "sage/deck/source.hpp"
 #include "sage/messages/error.hpp"
 #include "sage/messages/near_names.hpp"
 #include "sage/platform/module.hpp"
@@ -97,12 +96,10 @@ int write_folder(const NewOptions& options, const Catalogue& catalogue) {
   fs::create_directories(folder, error);
   if (error) throw OutputError("S601", "cannot make the folder " + folder.string() + ": " + error.message());
   for (const fs::directory_entry& file : fs::directory_iterator(from)) {
-    std::ifstream in(file.path());
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
     // Sources are kept as NAME.cpp.in, which no tool takes for sources.
     const fs::path name = file.path().extension() == ".in" ? file.path().stem() : file.path().filename();
     OutFile out(folder / filled_in(name.string(), options.name));
-    out.text() = filled_in(text, options.name);
+    out.text() = filled_in(read_file(file.path().string()), options.name);
     out.finish();
     answer_file(out.path());
   }
@@ -132,9 +129,8 @@ int write_deck(const NewOptions& options) {
   std::error_code error;
   if (fs::is_directory(to, error)) to /= options.name + ".dat";
   if (fs::exists(to, error)) throw UsageError("S807", to.string() + " exists already; it was not changed");
-  std::ifstream in(from);
   OutFile out(to);
-  out.text() = std::string{std::istreambuf_iterator<char>(in), {}};
+  out.text() = read_file(from.string());
   out.finish();
   answer_file(out.path());
   fmt::print("{}: a deck that runs; its first lines say what it computes and which commands to use\n",
@@ -150,9 +146,10 @@ Command new_command(CLI::App& parser, const Catalogue& catalogue) {
       ->required()
       ->check(CLI::IsMember({"deck", "law", "element", "umat"}));
   parser
-      .add_option("NAME", options->name,
-                  fmt::format("of a deck: {}; else the name of the new piece: lower-case letters, digits and _",
-                              fmt::join(deck_names(), ", ")))
+      .add_option(
+          "NAME", options->name,
+          fmt::format("for a deck: {}; otherwise the name of the new piece: lower-case letters, digits and _",
+                      fmt::join(deck_names(), ", ")))
       ->required()
       ->check(name_flaw);
   parser.add_option("-o,--output", options->folder,

@@ -5,8 +5,6 @@
 #include <CLI/Validators.hpp>
 #include <algorithm>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -24,6 +22,7 @@
 #include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/state_choice.hpp"
+#include "sage/deck/optional_file.hpp"
 #include "sage/record/factor_envelope.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/profile_text.hpp"
@@ -159,8 +158,7 @@ int compute_factors(const RunRequest& request, const Catalogue& catalogue, Json&
 std::string text_of(const std::string& deck) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(deck, error)) return {};
-  std::ifstream in(deck, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return read_file_if_any(deck).value_or("");
 }
 
 // STEM.html while the run goes, which must not outlive what is returned, and of the finished run.

@@ -8,6 +8,7 @@
 #include <regex>
 #include <set>
 
+#include "sage/deck/optional_file.hpp"
 #include "sage/messages/messages.hpp"
 #include "sage/model/dof_map.hpp"
 #include "sage/record/csv_table.hpp"
@@ -21,11 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostDeck = 1000000, kMostPicture = 400000, kMostPictures = 1500000, kMostRows = 20000;
-
-std::string file_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
 
 // Files STEM.*ending and STEM_*ending beside the result file, by name.
 std::vector<fs::path> beside(const fs::path& result, const std::string& ending) {
@@ -100,7 +96,7 @@ Json pictures_json(const PageRun& run, std::vector<std::string>& omitted) {
       continue;
     }
     all += size;
-    pictures.push_back({{"name", clean(name)}, {"svg", base64(file_text(file))}});
+    pictures.push_back({{"name", clean(name)}, {"svg", base64(read_file_if_any(file).value_or(""))}});
   }
   return pictures;
 }
