@@ -17,6 +17,7 @@
 #include "sage/drive/fit.hpp"
 #include "sage/drive/path_file.hpp"
 #include "sage/drive/subject.hpp"
+#include "sage/messages/split_at.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/values.hpp"
 #include "sage/umat/law.hpp"
@@ -219,20 +220,20 @@ Measured measured_from(const std::string& text, const LabTest* test, bool undrai
   const std::size_t at = text.rfind('@');
   double pressure = subject.pressure;
   if (at != std::string::npos) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const std::string number = text.substr(at + 1, comma - at - 1);
+    const std::vector<std::string_view> parts = split_at(',', std::string_view(text).substr(at + 1));
+    const std::string number(parts[0]);
     char* end = nullptr;
     pressure = std::strtod(number.c_str(), &end);
     if (number.empty() || *end != '\0' || !std::isfinite(pressure))
       refuse("wanted FILE, FILE@PRESSURE or FILE@PRESSURE,TEST[,undrained]");
-    if (comma < text.size()) {
-      const std::size_t next = std::min(text.find(',', comma + 1), text.size());
-      const std::string name = text.substr(comma + 1, next - comma - 1);
+    if (parts.size() > 1) {
+      const std::string name(parts[1]);
       test = find_lab_test(name, subject.entry->law_size);
-      undrained = undrained || next < text.size();
+      undrained = undrained || parts.size() > 2;
       if (test == nullptr)
         refuse("there is no test " + name + "; there are " + known_lab_tests(subject.entry->law_size));
-      if (next < text.size() && text.substr(next) != ",undrained") refuse("only undrained may follow the test");
+      if (parts.size() > 3 || (parts.size() == 3 && parts[2] != "undrained"))
+        refuse("only undrained may follow the test");
       if (undrained && test->undrained.empty())
         refuse(fmt::format("nothing moves in {} without change of volume", test->name));
     }
@@ -421,7 +422,7 @@ void add_law_options(CLI::App& parser, DriveOptions& options) {
           "NAME:LAW,KEY=VALUE,... one curve of several; without LAW, the law of --law or --deck with these "
           "changes; KEY pressure sets its own start; may be repeated")
       ->allow_extra_args(false);
-  parser.add_option("--cases", options.cases_file, "a file with one such text per line");
+  parser.add_option("--cases", options.cases_file, "file with one text of --case per line");
   parser.add_option("--units", options.unit_names, "names of length, force and stress, e.g. m,kN,kPa")
       ->delimiter(',')
       ->expected(3);
@@ -436,10 +437,10 @@ void add_test_options(CLI::App& parser, DriveOptions& options) {
   parser.add_flag("--list", options.list, "list the tests");
   parser.add_option("--test", options.test,
                     "solids: " + known_lab_tests(4) + "; joints: " + known_lab_tests(2));
-  parser.add_option(
-      "--path", options.path,
-      "CSV of stresses and strains instead, one leg per row: columns stress_xx ... strain_xy, steps, "
-      "duration (docs/manual/drive.md)");
+  parser.add_option("--path", options.path,
+                    "CSV of stresses and strains in place of --test, one leg per row: columns stress_xx ... "
+                    "strain_xy, steps, "
+                    "duration (docs/manual/drive.md)");
   parser
       .add_option("--pressure", options.pressure,
                   "stress at the start: isotropic, or across a joint (default 0)")
@@ -485,8 +486,8 @@ Command drive_command(CLI::App& parser, const Catalogue& catalogue) {
                   "NAME or NAME=LOW:HIGH,...: parameters for --fit, which starts from their values in --set")
       ->delimiter(',');
   parser.add_option("--csv", options->csv,
-                    "the curves as a table; - is standard output, in place of the summary");
-  parser.add_option("--plot", options->plot, "the curves as SVG");
+                    "write the curves as a table; - is standard output, in place of the summary");
+  parser.add_option("--plot", options->plot, "write the curves as SVG");
   parser.add_option("--xy", options->panels, "X:Y columns of a panel of the plot; may be repeated")
       ->allow_extra_args(false);
   add_digits_option(parser, options->digits);

@@ -1,10 +1,10 @@
 #include "sage/app/option_tables.hpp"
 
 #include <map>
-#include <sstream>
 
 #include "sage/deck/layout.hpp"
 #include "sage/messages/messages.hpp"
+#include "sage/messages/split_at.hpp"
 
 namespace sage::app {
 
@@ -35,10 +35,9 @@ std::vector<std::string> choices_of_type(const std::string& type) {
   const std::size_t begin = type.find('{');
   const std::size_t end = type.find('}');
   if (begin == std::string::npos || end == std::string::npos) return {};
-  std::istringstream list(type.substr(begin + 1, end - begin - 1));
-  std::vector<std::string> choices;
-  for (std::string one; std::getline(list, one, ',');) choices.push_back(one);
-  return choices;
+  const std::vector<std::string_view> choices =
+      split_at(',', std::string_view(type).substr(begin + 1, end - begin - 1));
+  return {choices.begin(), choices.end()};
 }
 
 // Values of options that check them by a function, which the parser can't list.  `name`: without its dashes and

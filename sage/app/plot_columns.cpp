@@ -10,6 +10,7 @@
 #include "sage/app/screen.hpp"
 #include "sage/core/unit_suffix.hpp"
 #include "sage/draw/plot.hpp"
+#include "sage/messages/split_at.hpp"
 #include "sage/record/csv_table.hpp"
 #include "sage/record/out_file.hpp"
 
@@ -46,10 +47,8 @@ Panel panel_from(const std::string& text) {
   if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
     throw UsageError("S904", "--xy " + text + ": wanted X:Y[,Y...], names of columns");
   Panel panel{variable_from(std::string_view(text).substr(0, colon)), {}};
-  for (std::size_t at = colon + 1, end = 0; at <= text.size(); at = end + 1) {
-    end = std::min(text.find(',', at), text.size());
-    panel.y.push_back(variable_from(std::string_view(text).substr(at, end - at)));
-  }
+  for (const std::string_view name : split_at(',', std::string_view(text).substr(colon + 1)))
+    panel.y.push_back(variable_from(name));
   return panel;
 }
 

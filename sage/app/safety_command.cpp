@@ -7,7 +7,6 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "sage/app/answer_run.hpp"
 #include "sage/app/commands.hpp"
@@ -18,6 +17,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
+#include "sage/messages/split_at.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/record/profile_text.hpp"
 #include "sage/safety/safety_text.hpp"
@@ -297,8 +297,9 @@ void add_search_options(CLI::App& parser, SafetyOptions& o) {
       .add_option("--tolerance", limits.tolerance, "width of the bracket that ends the search (default 0.005)")
       ->check(number_in(1e-8, 1.0, "a width from 1e-8 to 1"));
   parser
-      .add_option("--start", limits.start,
-                  "first factor, for which the stages are run (default 1; lower ones follow where it falls)")
+      .add_option(
+          "--start", limits.start,
+          "first factor, for which the stages are run (default 1; lower ones follow if the model fails at it)")
       ->check(number_in(1e-3, 1e3, "a factor from 0.001 to 1000"));
   parser.add_option("--smallest", limits.smallest, "factor below which the search ends (default 0.05)")
       ->check(number_in(1e-3, 1e3, "a factor from 0.001 to 1000"));
@@ -308,23 +309,21 @@ void add_search_options(CLI::App& parser, SafetyOptions& o) {
       ->check(CLI::Range(2, 100'000));
   parser
       .add_option("--cuts", o.search.cuts,
-                  "how often the way to a factor is halved before the factor is given up (default 5)")
+                  "number of times that the load path to a factor is halved before the factor counts as failed "
+                  "(default 5)")
       ->check(CLI::Range(0, 20));
 }
 
 // "soil,anchors".  Throws CLI::ValidationError.
 std::vector<ModelPart> parts_in(const std::string& list) {
   std::vector<ModelPart> parts;
-  std::istringstream words(list);
-  for (std::string word; std::getline(words, word, ',');) {
+  for (const std::string_view word : split_at(',', list)) {
     const auto* const row = std::ranges::find(kParts, word, &PartName::name);
     if (row == std::end(kParts))
       throw CLI::ValidationError(
-          "--reduce", "'" + word + "' is no part; a list of soil, joints, anchors and walls was expected");
+          "--reduce", fmt::format("'{}' is no part; expected a list of soil, joints, anchors and walls", word));
     parts.push_back(row->part);
   }
-  if (parts.empty())
-    throw CLI::ValidationError("--reduce", "a list of soil, joints, anchors and walls was expected");
   return parts;
 }
 
@@ -339,20 +338,18 @@ void add_choice_options(CLI::App& parser, SafetyOptions& o) {
   parser
       .add_option_function<std::string>(
           "--dilation", [&o](const std::string& name) { o.search.dilation = rules.at(name); },
-          "of the dilation angle: reduced (tan(psi) / F, the default), kept (at most the friction left), none "
-          "(0)")
+          "dilation angle: reduced (tan(psi) / F, the default), kept (at most the reduced friction), none (0)")
       ->check(CLI::IsMember(rules));
   parser
       .add_option_function<std::string>(
           "--from", [&o](const std::string& name) { o.search.start = starts.at(name); },
-          "where a factor starts: carried (from the state of the last that stands, the default), anew (all "
-          "stages "
+          "where a factor starts: carried (the state of the last stable factor, the default), anew (all stages "
           "again)")
       ->check(CLI::IsMember(starts));
   parser
-      .add_option(
-          "--group", o.search.groups,
-          "number of a group whose strength is divided, of a part in --reduce; may be repeated (default: all)")
+      .add_option("--group", o.search.groups,
+                  "number of a group of the parts in --reduce whose strength is divided; may be repeated "
+                  "(default: all)")
       ->allow_extra_args(false);
   parser.add_option_function<std::string>(
       "--reduce", [&o](const std::string& list) { o.search.reduce = parts_in(list); },
@@ -363,8 +360,8 @@ void add_choice_options(CLI::App& parser, SafetyOptions& o) {
     parser.add_flag_callback(
         flag, [&o, parts] { o.search.reduce.insert(o.search.reduce.end(), parts.begin(), parts.end()); }, what);
   };
-  add("--interfaces", {ModelPart::joints}, "adds joints to --reduce");
-  add("--structures", {ModelPart::anchors, ModelPart::walls}, "adds anchors and walls to --reduce");
+  add("--interfaces", {ModelPart::joints}, "add joints to --reduce");
+  add("--structures", {ModelPart::anchors, ModelPart::walls}, "add anchors and walls to --reduce");
 }
 
 constexpr const char* kSafetyExamples =
@@ -373,7 +370,7 @@ constexpr const char* kSafetyExamples =
     "      both ends of a bracket of 0.005 for the factor, the reason for each, curve and mechanism\n"
     "  sagefe safety wall.dat --stage 3 --reduce soil,joints --tolerance .005\n"
     "  sagefe safety slope.dat --converge .01\n"
-    "      finer and finer meshes, until the factor changes by less than 1 %";
+    "      refine the mesh until the factor changes by less than 1 %";
 
 }  // namespace
 
@@ -385,7 +382,7 @@ Command safety_command(CLI::App& parser, const Catalogue& catalogue) {
   add_choice_options(parser, *o);
   parser
       .add_option("--converge", o->converge,
-                  "finer and finer meshes until the factor changes by less than this part, e.g. 0.01")
+                  "refine the mesh until the factor changes by less than this share, e.g. 0.01")
       ->check(number_in(1e-6, 0.5, "a relative change from 1e-6 to 0.5"));
   parser.add_option("--max-dofs", o->max_dofs, "with --converge: largest model (default 60000)")
       ->check(CLI::PositiveNumber);

@@ -22,6 +22,7 @@
 #include "sage/app/result_files.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/stored_heads.hpp"
+#include "sage/messages/split_at.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/sweep/table.hpp"
@@ -53,11 +54,9 @@ std::pair<int, int> part_of(const SweepCommand& command) {
 
 sweep::Study study_of(const SweepCommand& command) {
   sweep::Study study = sweep::read_study(command.study);
-  for (const std::string& list : command.collect) {
-    std::istringstream names(list);
-    for (std::string name; std::getline(names, name, ',');)
-      if (std::ranges::find(study.collect, name) == study.collect.end()) study.collect.push_back(name);
-  }
+  for (const std::string& list : command.collect)
+    for (const std::string_view name : split_at(',', list))
+      if (std::ranges::find(study.collect, name) == study.collect.end()) study.collect.emplace_back(name);
   return study;
 }
 
@@ -170,8 +169,8 @@ Command sweep_command(CLI::App& parser, const Catalogue& catalogue) {
       ->check(CLI::Range(1, 1024));
   add_digits_option(parser, o->digits);
   parser.add_option("-o,--output", o->folder, "folder for results (default: out)");
-  CLI::Option* part =
-      parser.add_option("--part", o->part, "K/N: only every N-th case from the K-th on, without a table");
+  CLI::Option* part = parser.add_option("--part", o->part,
+                                        "K/N: compute only every N-th case from the K-th on; write no table");
   CLI::Option* parallel =
       parser.add_option("--parallel", o->parallel, "number of worker processes, started by GNU parallel")
           ->check(CLI::Range(1, 10'000));

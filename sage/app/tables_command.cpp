@@ -7,7 +7,6 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
@@ -16,6 +15,7 @@
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/water_tables.hpp"
+#include "sage/messages/split_at.hpp"
 #include "sage/platform/module.hpp"
 
 namespace sage::app {
@@ -54,9 +54,8 @@ std::vector<ChapterEntry> read_entries(const std::filesystem::path& path) {
   while (std::getline(in, line)) {
     if (line.empty() || line[0] == '#') continue;
     if (std::exchange(header, false)) continue;
-    std::vector<std::string> cells;
-    std::stringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    const std::vector<std::string_view> parts = split_at(',', line);
+    std::vector<std::string> cells(parts.begin(), parts.end());
     cells.resize(8);
     entries.push_back({cells[0], cells[1], cells[2], cells[3], std::stoi(cells[4]), std::stoi(cells[5]),
                        std::stod(cells[6]), cells[7].empty() ? 0.0 : std::stod(cells[7])});

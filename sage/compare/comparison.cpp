@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sage/messages/split_at.hpp"
 #include "sage/record/extremes.hpp"
 #include "sage/record/values.hpp"
 
@@ -20,10 +21,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 std::vector<double> numbers(const std::string& text, std::size_t count) {
   std::vector<double> values;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const std::string word = text.substr(at, comma - at);
+  for (const std::string_view part : split_at(',', text)) {
+    const std::string word(part);
     std::size_t used = 0;
     try {
       values.push_back(std::stod(word, &used));
@@ -32,7 +31,6 @@ std::vector<double> numbers(const std::string& text, std::size_t count) {
     }
     if (used != word.size() || !std::isfinite(values.back()))
       throw std::invalid_argument("\"" + word + "\" in \"" + text + "\" is not a number");
-    at = comma + 1;
   }
   if (values.size() != count)
     throw std::invalid_argument(

@@ -1,8 +1,8 @@
 #include "sage/drive/subject.hpp"
+#include "sage/messages/split_at.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -135,8 +135,8 @@ void expect_whole(const Subject& subject, const SourcePosition& where) {
 
 Subject subject_from(const Catalogue& catalogue, std::string_view text, const UnitSystem& units,
                      double pressure, const Subject* base, const SourcePosition& where) {
-  const std::size_t comma = std::min(text.find(','), text.size());
-  const std::string_view head = trimmed(text.substr(0, comma));
+  const std::vector<std::string_view> parts = split_at(',', text);
+  const std::string_view head = trimmed(parts.front());
   const std::size_t colon = head.find(':');
   const bool named = colon != std::string_view::npos;
   const std::string_view law = named ? trimmed(head.substr(colon + 1)) : head;
@@ -145,10 +145,7 @@ Subject subject_from(const Catalogue& catalogue, std::string_view text, const Un
   Subject subject = law.empty() ? *base : subject_of(catalogue, law, units, where);
   if (!law.empty()) subject.pressure = pressure;
   if (named) give_name(subject, head.substr(0, colon), where);
-  for (std::size_t at = comma + 1, end = 0; at < text.size(); at = end + 1) {
-    end = std::min(text.find(',', at), text.size());
-    apply(subject, setting_from(text.substr(at, end - at), where), where);
-  }
+  for (std::size_t i = 1; i < parts.size(); ++i) apply(subject, setting_from(parts[i], where), where);
   expect_whole(subject, where);
   return subject;
 }

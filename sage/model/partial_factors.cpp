@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "sage/messages/split_at.hpp"
 #include "sage/model/law_table.hpp"
 #include "sage/model/strength.hpp"
 
@@ -124,24 +125,17 @@ std::string list_of(const std::vector<int>& numbers) {
 std::vector<PartialFactors> partial_factors(std::string_view text) {
   std::vector<PartialFactors> sets;
   const std::size_t colon = text.find(':');
-  const auto parts = [](std::string_view list) {
-    std::vector<std::string_view> all;
-    for (std::size_t at = 0; at <= list.size();) {
-      const std::size_t end = std::min(list.find(',', at), list.size());
-      all.push_back(without_blanks(list.substr(at, end - at)));
-      at = end + 1;
-    }
-    return all;
-  };
   if (colon == std::string_view::npos) {
-    for (const std::string_view name : parts(text)) sets.push_back(known_set(name, false));
+    for (const std::string_view name : split_at(',', text))
+      sets.push_back(known_set(without_blanks(name), false));
     return sets;
   }
   const std::string_view name = without_blanks(text.substr(0, colon));
   if (name.empty() || name.find_first_of("/\\") != std::string_view::npos)
     throw std::invalid_argument("a set of factors needs a name without slashes, as in NAME:friction=1.25");
   sets.push_back(known_set(name, true));
-  for (const std::string_view part : parts(text.substr(colon + 1))) set_factor(sets.back(), part);
+  for (const std::string_view part : split_at(',', text.substr(colon + 1)))
+    set_factor(sets.back(), without_blanks(part));
   return sets;
 }
 

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "sage/messages/error.hpp"
+#include "sage/messages/split_at.hpp"
 #include "sage/platform/checksum.hpp"
 
 namespace sage::sweep {
@@ -32,17 +33,6 @@ std::uint64_t hex(std::string_view text) {
   std::uint64_t value = 0;
   std::from_chars(text.data(), text.data() + text.size(), value, 16);
   return value;
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> parts{""};
-  for (const char c : text) {
-    if (c == '\t')
-      parts.emplace_back();
-    else
-      parts.back() += c;
-  }
-  return parts;
 }
 
 }  // namespace
@@ -74,11 +64,11 @@ void Journal::read(const std::filesystem::path& file) {
     if (end == std::string::npos) continue;
     const std::string text = line.substr(0, end);
     if (line.substr(end + 1) != fmt::format("{:016x}", checksum(text))) continue;
-    const std::vector<std::string> parts = split(text);
+    const std::vector<std::string_view> parts = split_at('\t', text);
     constexpr std::size_t kParts = 5;
     if (parts.size() != kParts) continue;
-    CaseOutcome outcome{parts[1], {}, parts[2], parts[4]};
-    std::istringstream values(parts[3]);
+    CaseOutcome outcome{std::string(parts[1]), {}, std::string(parts[2]), std::string(parts[4])};
+    std::istringstream values{std::string(parts[3])};
     for (std::string value; values >> value;) outcome.values.push_back(std::bit_cast<double>(hex(value)));
     known_.insert_or_assign(hex(parts[0]), std::move(outcome));
   }
