@@ -19,11 +19,14 @@ struct Solved {
   bool solved() const { return solution.status == ConeStatus::solved; }
 };
 
+BoundProgram program_of(const Domain& domain, const Edges& edges, Quantity quantity, Side side) {
+  return side == Side::primal ? lower_program(domain, edges, quantity) : upper_program(domain, edges, quantity);
+}
+
 Solved solve_one(const Domain& domain, const Edges& edges, Quantity quantity, Side side,
                  const Options& options) {
   Solved one;
-  one.program =
-      side == Side::primal ? lower_program(domain, edges, quantity) : upper_program(domain, edges, quantity);
+  one.program = program_of(domain, edges, quantity, side);
   ConeOptions cone;
   cone.side = side;
   cone.gap = options.accuracy;
@@ -144,7 +147,7 @@ class FactorRoot {
     return tries_ >= 14 || (!has_high_ && low_.factor >= options_.largest) ||
            (!has_low_ && high_.factor <= options_.smallest);
   }
-  // t is about a (1 / F - 1 / root): its secant in 1 / F.
+  // slope: of t over 1 / F, where the last trial was.
   double next(double slope) const {
     const double step = 0.3 * options_.tolerance;
     if (has_low_ && has_high_) {
@@ -158,7 +161,9 @@ class FactorRoot {
     const Trial& last = has_low_ ? low_ : high_;
     const double inverse = 1.0 / last.factor - last.t / slope;
     const double guess = inverse > 0.0 ? 1.0 / inverse : 2.0 * last.factor;
-    const double beyond = guess * (1.0 + (has_low_ ? 0.01 : -0.01));
+    // The root of the tangent is wrong by about the square of the way to it.
+    const double way = guess / last.factor - 1.0, margin = std::min(step + 2.0 * way * way, 0.01);
+    const double beyond = guess * (1.0 + (has_low_ ? margin : -margin));
     return std::clamp(std::clamp(beyond, 0.5 * last.factor, 2.0 * last.factor), options_.smallest,
                       options_.largest);
   }
@@ -174,15 +179,21 @@ class FactorRoot {
   int tries_ = 0;
 };
 
-// Mean strength of the program with F = 1: what t is of at most.
-double mean_strength(const ConeProgram& program, const Eigen::Matrix3Xd& s) {
-  double sum = 0.0, weight = 0.0;
-  for (std::size_t c = 0; c < program.cones.size(); ++c) {
-    if (program.cones[c].h1[0] == 0.0) continue;
-    sum += s(0, static_cast<Eigen::Index>(c));
-    weight -= program.cones[c].h1[0];
+// Change of t with 1 / F: the strain rates are the multipliers of the yield conditions.
+double slope_of(const Domain& domain, const Edges& edges, Side side, double factor, const Solved& one) {
+  constexpr double kStep = 1e-4;  // of 1 / F, relative
+  const BoundProgram other =
+      program_of(reduced(domain, factor / (1.0 + kStep)), edges, Quantity::strength, side);
+  const double unit = other.units.stress / one.program.units.stress;
+  double change = 0.0;
+  for (std::size_t c = 0; c < other.program.cones.size(); ++c) {
+    const Cone &now = one.program.program.cones[c], &then = other.program.cones[c];
+    const auto k = static_cast<Eigen::Index>(c);
+    if (now.h1[0] == 0.0) continue;
+    const Vector3 room = unit * then.h0 - now.h0 - (then.G - now.G) * one.solution.sigma.col(k);
+    change += room.dot(one.solution.z.col(k));
   }
-  return weight > 0.0 ? std::max(sum / weight, 1e-6) : 1.0;
+  return std::max(change * factor / kStep, 1e-6);
 }
 
 Solved bound_factor(const Domain& domain, const Edges& edges, Side side, const Options& options, double start,
@@ -209,7 +220,7 @@ Solved bound_factor(const Domain& domain, const Edges& edges, Side side, const O
       }
     }
     root.take(factor, t);
-    factor = root.next(2.0 * mean_strength(one.program.program, one.solution.s));
+    if (!root.found()) factor = root.next(slope_of(domain, edges, side, factor, one));
     if (!best.solved()) best = std::move(one);
   }
   if (!bound.value && bound.reason.empty())

@@ -112,11 +112,11 @@ class InteriorPoint {
   void scale_cones();
   void weigh_points(double soft);
   Vector3 moved(std::size_t c, Vector3 q) const;
-  void factorise(double soft);
+  void factorise(double soft, double enough);
   Residuals residuals() const;
   // Residuals of systems of equations, relative.
   static constexpr double kExact = 1e-15;
-  static constexpr double kRough = 1e-6;  // of a step that only guides another
+  static constexpr double kRough = 1e-6;  // of steps that only guide others, or are far from the optimum
 
   // The Newton step to the residuals' end with the complementarity product(lambda, W dz + W^-1 ds) = target.
   Direction direction(const Residuals& r, const Stresses& target, double enough) const;
@@ -155,6 +155,7 @@ class InteriorPoint {
   Stresses h1_moved_;                       // H^-1 G^T W^-2 h1 by point
   double kappa_ = 0.0;
   double last_step_ = 0.0;
+  bool far_ = true;  // from the optimum
 };
 
 void InteriorPoint::start() {
@@ -215,7 +216,7 @@ Vector3 InteriorPoint::moved(std::size_t c, Vector3 q) const {
   return left_inverse_[c] * q;
 }
 
-void InteriorPoint::factorise(double soft) {
+void InteriorPoint::factorise(double soft, double enough) {
   weigh_points(soft);
   Eigen::MatrixXd AH, K;
   factor_.factorise(
@@ -229,7 +230,7 @@ void InteriorPoint::factorise(double soft) {
       },
       kNegligible);
   column_ = p_.b1 - forces(p_, h1_moved_);
-  solve_refined(column_, column_answer_, kExact);
+  solve_refined(column_, column_answer_, enough);
 }
 
 Eigen::VectorXd InteriorPoint::multiply(const Eigen::VectorXd& x) const {
@@ -334,7 +335,8 @@ void InteriorPoint::iterate_once(bool keep_centre) {
   // Weight of a change of stress without influence on yield.  Small: the velocities are exact after fewer steps;
   // large: the stresses are.
   const double proximal = options_.side == Side::primal ? 1e-4 : 1e-6;
-  factorise(proximal * z_.row(0).sum() / (1e-300 + s_.row(0).sum()));
+  const double enough = far_ ? kRough : kExact;
+  factorise(proximal * z_.row(0).sum() / (1e-300 + s_.row(0).sum()), enough);
   const Residuals r = residuals();
   const Eigen::Index cones = s_.cols();
   const double mu = centre();
@@ -347,7 +349,7 @@ void InteriorPoint::iterate_once(bool keep_centre) {
     target.row(0).array() += mu;
   else
     correct(direction(r, target, kRough), mu, target);
-  const Direction d = direction(r, target, kExact);
+  const Direction d = direction(r, target, enough);
   const double keep = 0.98;
   const double primal = std::min(1.0, keep * step_of(s_, d.s)), dual = std::min(1.0, keep * step_of(z_, d.z));
   last_step_ = std::min(primal, dual);
@@ -411,7 +413,7 @@ void InteriorPoint::mend() {
     }
     scaling_[c].make(inside, Vector3(inside[0], -inside[1], -inside[2]) / determinant(inside));
   }
-  factorise(primal ? 1.0 / (mean * mean) : 1e-6);
+  factorise(primal ? 1.0 / (mean * mean) : 1e-6, kExact);
   double last = size();
   for (int turn = 0; turn < 20 && last > 1e-15; ++turn) {
     const Stresses sigma = sigma_, s = s_, z = z_;
@@ -473,6 +475,7 @@ bool InteriorPoint::good(const ConeSolution& solution) const {
 }
 
 ConeSolution InteriorPoint::run() {
+  constexpr double kFar = 0.01;  // relative gap
   ConeSolution now;
   std::vector<ConeSolution> kept;  // good ones, by falling gap
   int short_steps = 0;
@@ -483,6 +486,7 @@ ConeSolution InteriorPoint::run() {
     }
     iterate_once();
     measure(now);
+    far_ = now.relative_gap() > kFar;
     if (!std::isfinite(now.tau) || !std::isfinite(now.dual) || !z_.allFinite() || !s_.allFinite()) break;
     // Further iterations of a program that is solved as well as rounding lets it be only add rounding.
     if (good(now) && now.relative_gap() < (kept.empty() ? 1e-2 : kept.back().relative_gap())) {
