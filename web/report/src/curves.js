@@ -206,7 +206,8 @@ function usual(table) {
     const way = most("uy") >= most("ux") ? "y" : "x";
     return {x: "u" + way, y: ["f" + way]};
   }
-  if (has("factor") && has("displacement")) return {x: "displacement", y: ["factor"], points: true};
+  if (has("factor") && has("displacement")) return {x: "row", y: ["factor"]};  // as the search tried them
+  if (has("triangles") && has("lower")) return {x: "triangles", y: ["lower", "upper"]};
   const rest = names.filter((n) => n !== "stage" && n !== "increment");
   return {x: "row", y: rest.slice(0, 1)};
 }

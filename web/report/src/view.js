@@ -269,7 +269,8 @@ export class View {
       }
     }
     this.ratio = ratio;
-    this.caption.textContent = `${run.title}: stage ${state.stage}, increment ${state.increment} of ${state.increments}, load factor ${text_of(state.load_factor, 6)}`;
+    const title = this.page.runs.length > 1 ? `${run.name}: ${run.title}` : run.title;
+    this.caption.textContent = `${title}: stage ${state.stage}, increment ${state.increment} of ${state.increments}, load factor ${text_of(state.load_factor, 6)}`;
     this.draw_under(choice);
     this.draw_over();
   }
