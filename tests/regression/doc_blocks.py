@@ -44,10 +44,41 @@ NEED_PYTHON, NEED_PREFIX = {"python_sweep"}, {"own_law"}
 DEAR = ("sagefe bounds slope",) if "--quick" in WORDS else ()
 # Of a page of the manual: what it takes for granted, and words of its commands that stand for something.
 CHAPTER = "legacy_inputs/chapter7"
+# Two squares of soil with named sides, as a mesher writes them.
+LAYER = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+5
+1 1 "bottom"
+1 2 "left"
+1 3 "right"
+1 4 "road"
+2 5 "soil"
+$EndPhysicalNames
+$Nodes
+6
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+$EndNodes
+$Elements
+7
+1 1 2 1 1 1 2
+2 1 2 1 1 2 3
+3 1 2 2 2 1 4
+4 1 2 3 3 3 6
+5 1 2 4 4 5 6
+6 3 2 5 1 1 2 5 4
+7 3 2 5 1 2 3 6 5
+$EndElements"""
 MANUAL = {
     "accuracy": ([], {}),
     "compare": ([f"cp {CHAPTER}/pinned_ld2_nu0333/deck.dat A.dat", f"cp {CHAPTER}/pinned_ld2_nu0495/deck.dat B.dat"], {"DECK": "A.dat"}),
-    "convert": (["sagefe new deck embankment -o IN", "sagefe convert IN layer.msh"], {"OUT": "OUT.inp"}),
+    "convert": (["sagefe new deck embankment -o IN", f"printf '%s\\n' '{LAYER}' > layer.msh"], {"OUT": "OUT.inp"}),
     "drive": (["sagefe new deck triaxial -o deck.dat"]
               + [f"sagefe drive --law mohr_coulomb --set E=2e4 --set nu=.3 --set c=10 --set phi=30 --test triaxial_compression --pressure {p} "
                  f"--to .05 --csv all.csv && printf 'strain_yy,axial_deviator\\n.002,40\\n.01,{2 * p + 34}\\n.03,{2 * p + 34}\\n' > cd{p}.csv"
@@ -69,7 +100,6 @@ MANUAL = {
 NOT_HERE = {
     "sagefe stress ": "all rows: tests/stress; the page: scripts/pictures",
     "sagefe verify ": "all cases: tests/verification; the page: scripts/pictures",
-    "sagefe convert layer.msh layer.dat --young": "a mesh with names of its own: tests/unit/exchange/mesh_files_test.cpp",
     "sagefe safety slope.dat --converge": "minutes; tests/regression/safety_test.cpp converges a smaller deck",
     "sagefe drive --law clough_duncan ...": "an outline",
     "sagefe drive --law modified_cam_clay": "curves of the reader; tests/unit/drive fits several tests together",
