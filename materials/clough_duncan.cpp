@@ -3,11 +3,14 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/math/rounding.hpp"
+
 namespace sage {
 
 namespace {
 
-constexpr double kRounding = 1e-13;  // relative to the strength: below this a stress is on the surface
+constexpr double kRounding =
+    rounding::kStrength;  // relative to the strength: below this a stress is on the surface
 // A gap is rounding of a joint without stress if this share of the largest shear stress, or of the stress
 // floor, would close it.
 constexpr double kNoGap = 1e-5, kNoGapOfFloor = 1e-2;

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/math/rounding.hpp"
+
 namespace sage {
 
 namespace {
 
-constexpr double kRounding = 1e-13;  // relative to the strength: below this a stress is on the surface
+constexpr double kRounding =
+    rounding::kStrength;  // relative to the strength: below this a stress is on the surface
 
 const std::vector<Parameter>& rows() {
   static const std::vector<Parameter> table = {

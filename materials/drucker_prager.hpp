@@ -9,6 +9,7 @@
 #include "materials/stress_measures.hpp"
 #include "sage/core/elastic_shear.hpp"
 #include "sage/core/law.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -63,7 +64,7 @@ class DruckerPrager : public SolidLaw, public ElasticShear {
 
  protected:
   enum { kShear, kVolume };
-  static constexpr double kRounding = 1e-12;  // relative to scale()
+  static constexpr double kRounding = rounding::kResult;  // relative to scale()
   // Share of D_elastic left in the tangent where the true one is singular.
   static constexpr double kApexStiffness = 1e-7;
   // unit_tensor() and deviatoric_projection(), as constants that loops over their terms fold.

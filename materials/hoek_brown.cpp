@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "materials/stress_measures.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -12,7 +13,7 @@ namespace {
 
 // A place so near the tip is the tip: s1 and s3 there differ by a millionth of sigma_ci.
 constexpr double kNearTip = 1e-6;
-constexpr double kRounding = 1e-14;
+constexpr double kRounding = rounding::kSolution;
 constexpr double kTipStiffness = 1e-7;  // share of D_elastic left where the true tangent is zero
 
 const std::vector<Parameter>& rows() {

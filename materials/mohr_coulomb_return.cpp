@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "materials/stress_measures.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -15,7 +16,7 @@ namespace {
 using Vector3 = Vector<3>;
 using Matrix3 = Matrix<3>;
 
-constexpr double kRounding = 1e-12;
+constexpr double kRounding = rounding::kResult;
 constexpr double kApexStiffness = 1e-7;  // share of D_elastic left where the true tangent is zero
 
 // Planes that can be active when s1 >= s2 >= s3: Mohr-Coulomb in the pairs 13, 12, 23 and tension in 1, 2, 3.

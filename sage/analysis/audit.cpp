@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -11,7 +12,7 @@ namespace {
 // What the rounding of its unknowns makes of the sums of a further field: water at rest flows by that much.  Known
 // of elements whose matrices are kept; of others 0.
 double rounding_of(const Assembly& assembly, int field, const Eigen::VectorXd& u) {
-  constexpr double kRounding = 16.0 * std::numeric_limits<double>::epsilon();
+  constexpr double kRounding = rounding::kSumAtNode;
   double stiffest = 0.0, largest = 0.0, count = 0.0;
   for (const GroupData& data : assembly.groups()) {
     if (!data.active || !data.constant || data.field_of_dof.empty() || data.field_of_dof[0] != field) continue;

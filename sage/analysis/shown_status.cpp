@@ -1,9 +1,11 @@
 #include "sage/analysis/shown_status.hpp"
 
+#include "sage/math/rounding.hpp"
+
 namespace sage {
 
 PointStatus shown_opening(const Mesh& mesh, const GroupData& data, std::size_t point) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = rounding::kResult;
   const PointStates& state = data.state.committed;
   const auto history = history_of(data.law);
   const auto stride = static_cast<std::size_t>(data.state.history_size());

@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/math/rounding.hpp"
+
 namespace sage {
 
 namespace {
 
-constexpr double kUnitRounding = 8.0 * std::numeric_limits<double>::epsilon();
+constexpr double kUnitRounding = rounding::kFewProducts;
 
 }  // namespace
 

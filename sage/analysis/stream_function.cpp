@@ -10,6 +10,7 @@
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/flow_through.hpp"
 #include "sage/analysis/observer.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -168,7 +169,7 @@ void Net::sum_nodes(StreamFunction& result) {
   double scale = 0.0;
   for (const double taken : taken_) scale = std::max(scale, std::abs(taken));
   // Sums of psi and weights: of what lies around a node, of what lies on the edge, of what is closed there.
-  constexpr double kClosed = 1e-9;
+  constexpr double kClosed = rounding::kText;
   std::array<std::vector<double>, 3> sum, weight;
   for (std::size_t kind = 0; kind < sum.size(); ++kind) {
     sum[kind].assign(n, 0.0);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sage/math/dense.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage::bounds {
 
@@ -106,7 +107,7 @@ class InteriorPoint {
   ConeSolution run();
 
  private:
-  static constexpr double kNegligible = 1e-13;  // pivots
+  static constexpr double kNegligible = rounding::kStrength;  // pivots
 
   void start();
   void scale_cones();
@@ -512,7 +513,7 @@ ConeSolution InteriorPoint::without_end(ConeSolution last) {
 
 // The best solution that can be mended to rounding.  One closer to the optimum has less room for that.
 ConeSolution InteriorPoint::strict_one(std::vector<ConeSolution>& kept) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = rounding::kResult;
   ConeSolution best;
   const int iterations = kept.back().iterations;
   double smallest = 1e300;

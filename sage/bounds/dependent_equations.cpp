@@ -4,6 +4,7 @@
 #include <map>
 
 #include "sage/math/dense.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage::bounds {
 
@@ -31,7 +32,7 @@ std::vector<std::vector<Term>> terms_by_node(const ConeProgram& program, const s
 }  // namespace
 
 std::vector<int> dependent_equations(const ConeProgram& program, const std::vector<int>& node_of) {
-  constexpr double kRounding = 1e-9;  // of coordinates, beside the sides of a triangle
+  constexpr double kRounding = rounding::kText;  // of coordinates, beside the sides of a triangle
   std::vector<int> dependent;
   for (const std::vector<Term>& terms : terms_by_node(program, node_of)) {
     std::map<int, Eigen::Index> row, column;

@@ -1,12 +1,12 @@
 // Node cards (with line generation) and fill cards (blocks between four corner nodes).
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <vector>
 
 #include "sage/builder/builder.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage::builder {
 
@@ -59,7 +59,7 @@ bool place(Builder& b, PlacedNodes& nodes, const CardView& card, int number, con
 
 // A generated place on an axis is a difference of numbers of the size `reach`: what is rounding of those is zero.
 Vector2 on_axes(const Vector2& place, double reach) {
-  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  constexpr double kRounding = rounding::kFewProducts;
   return (place.array().abs() <= kRounding * reach).select(0.0, place);
 }
 

@@ -9,6 +9,7 @@
 
 #include "sage/builder/builder.hpp"
 #include "sage/core/time_scheme.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage::builder {
 
@@ -480,7 +481,7 @@ std::vector<double> read_times(Builder& b, const CardView& card, double duration
 
 // Each output time is the end of an increment, besides those of the card.
 void divide_at_output_times(Stage& stage) {
-  constexpr double kSame = 1e-9;
+  constexpr double kSame = rounding::kText;
   if (stage.output_times.empty() || stage.increments < 1 || !(stage.grading > 0.0)) return;
   const GradedIncrements graded(stage.grading);
   std::vector<double> ends;

@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "sage/math/rounding.hpp"
 #include "sage/messages/split_at.hpp"
 #include "sage/record/extremes.hpp"
 #include "sage/record/values.hpp"
@@ -674,7 +675,7 @@ void add_answers(Comparison& c, const Side& a, const Side& b, const std::vector<
 }  // namespace
 
 double Row::relative() const {
-  constexpr double kRounding = 1e-10;
+  constexpr double kRounding = rounding::kRun;
   if (difference() == 0.0) return 0.0;
   return comparable && !zero_a() && std::abs(a) > kRounding * scale ? difference() / std::abs(a) : kUnknown;
 }

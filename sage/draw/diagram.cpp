@@ -8,6 +8,7 @@
 #include <span>
 
 #include "sage/draw/svg.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -69,7 +70,7 @@ void take(Diagram& diagram, const Scenery& scenery, const ElementEnd& end, doubl
 
 // What is rounding beside the largest is zero.
 void drop_rounding(Diagram& diagram) {
-  constexpr double kRoundOff = 1e-9;
+  constexpr double kRoundOff = rounding::kText;
   double most = 0.0;
   for (const DiagramElement& e : diagram.elements)
     for (int i = 0; i < 2; ++i) most = std::max({most, std::abs(e.low[i]), std::abs(e.high[i])});

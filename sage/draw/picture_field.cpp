@@ -8,6 +8,7 @@
 
 #include "sage/draw/diagram.hpp"
 #include "sage/draw/flow_net.hpp"
+#include "sage/math/rounding.hpp"
 #include "sage/messages/near_names.hpp"
 #include "sage/model/coarse_shape.hpp"
 
@@ -15,8 +16,8 @@ namespace sage {
 
 namespace {
 
-constexpr double kRoundOff = 1e-9;  // of the largest stress or displacement: not worth a colour
-constexpr std::size_t kMost = 16;   // numbers of a field without memory of its own
+constexpr double kRoundOff = rounding::kText;  // of the largest stress or displacement: not worth a colour
+constexpr std::size_t kMost = 16;              // numbers of a field without memory of its own
 
 // Of what a DisplacementField, StressField or StrainField carries; 0 of others, whose numbers may differ by much.
 double largest_of(const FieldEntry& field, const Eigen::MatrixXd& at) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sage/draw/diagram.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -24,7 +25,7 @@ View make_view(const Model& model, const Solution& s, const NodalLayout& layout,
                bool diagrams) {
   View view;
   if (layout.node.empty()) return view;
-  constexpr double kRounding = 1e-10;  // of the mesh's size
+  constexpr double kRounding = rounding::kRun;  // of the mesh's size
   view.low = view.high = model.mesh.x.col(layout.node.front());
   double& largest = view.largest;
   for (int node : layout.node) {

@@ -6,13 +6,15 @@
 #include <array>
 #include <cmath>
 
+#include "sage/math/rounding.hpp"
 #include "sage/messages/error.hpp"
 
 namespace sage::drive {
 
 namespace {
 
-constexpr double kRounding = 1e-13;  // of the largest stress: such a difference of stresses is none
+constexpr double kRounding =
+    rounding::kStrength;  // of the largest stress: such a difference of stresses is none
 
 // Compression + to tension +, and back; 0.0 - : no -0.
 double turned(double value) {

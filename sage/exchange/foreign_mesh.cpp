@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sage/deck/text.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -41,7 +42,7 @@ std::array<Extent, 3> extents(const ForeignMesh& mesh) {
 
 // The plane of the mesh must be that of x and y, at any height.
 void check_plane(ForeignMesh& mesh, const std::string& file) {
-  constexpr double kFlat = 1e-9;  // of the mesh's size
+  constexpr double kFlat = rounding::kText;  // of the mesh's size
   const std::array<Extent, 3> all = extents(mesh);
   const double size = std::max({all[0].size(), all[1].size(), all[2].size()});
   if (all[2].size() <= kFlat * size) {

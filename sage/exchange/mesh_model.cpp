@@ -12,6 +12,7 @@
 #include "sage/deck/text.hpp"
 #include "sage/exchange/foreign_mesh.hpp"
 #include "sage/exchange/msh_interfaces.hpp"
+#include "sage/math/rounding.hpp"
 #include "sage/messages/near_names.hpp"
 #include "sage/model/dof_map.hpp"
 
@@ -24,7 +25,7 @@ using Kind = MeshUse::Kind;
 // The nodes of an element the other way round: its two parent coordinates change
 // places, the first corner stays.
 void turn_round(std::vector<int>& nodes, const ElementEntry& entry) {
-  constexpr double kSame = 1e-9;
+  constexpr double kSame = rounding::kText;
   const auto& at = entry.parent_nodes;
   const std::vector<int> before = nodes;
   for (std::size_t i = 0; i < before.size(); ++i)

@@ -5,15 +5,16 @@
 #include <stdexcept>
 
 #include "sage/deck/text.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage::mesh {
 
 namespace {
 
-constexpr double kTiny = 1e-12;           // of parent coordinates
-constexpr double kMaxElements = 1e7;      // 40 GB and more
-constexpr double kManyNodes = 2e5;        // seconds, and a GB
-constexpr double kBytesPerNode = 4000.0;  // 4-node elements, linear and symmetric: measured 3.8 to 4.0
+constexpr double kTiny = rounding::kResult;  // of parent coordinates
+constexpr double kMaxElements = 1e7;         // 40 GB and more
+constexpr double kManyNodes = 2e5;           // seconds, and a GB
+constexpr double kBytesPerNode = 4000.0;     // 4-node elements, linear and symmetric: measured 3.8 to 4.0
 
 // Side of the parent square or triangle that a local edge lies on.
 int side_of(const Group& group, int edge) {

@@ -11,6 +11,7 @@
 #include "sage/analysis/external_loads.hpp"
 #include "sage/analysis/flow_through.hpp"
 #include "sage/analysis/pore_steps.hpp"
+#include "sage/math/rounding.hpp"
 #include "sage/record/nodal_values.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/output.hpp"
@@ -248,7 +249,7 @@ void CorrectTest::shorten(double axial_strain, double duration) {
 // is that of the last part; parts without axial strain make up for that.
 void CorrectTest::shorten_much(double axial_strain, double duration) {
   constexpr int kAgain = 40;
-  constexpr double kSame = 1e-12;
+  constexpr double kSame = rounding::kResult;
   const double part = (std::log1p(-axial_strain) - std::log1p(-axial_strain_)) / kSubsteps;
   const auto advance = [&](double strain, double time) {
     const double volume = std::exp(driver_->eps().head<3>().sum());

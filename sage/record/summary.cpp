@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "sage/analysis/stage_warnings.hpp"
+#include "sage/math/rounding.hpp"
 #include "sage/record/values.hpp"
 
 namespace sage {
@@ -70,7 +71,7 @@ std::vector<Row> chosen(const std::vector<Row>& rows) {
 
 // A number that is smaller than what rounding leaves of the largest one in its table says nothing.
 double without_rounding(double value, double largest) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = rounding::kResult;
   return std::abs(value) < kRounding * largest ? 0.0 : value + 0.0;
 }
 

@@ -6,6 +6,7 @@
 
 #include "sage/analysis/skips/kept_matrices.hpp"
 #include "sage/analysis/tangent.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -110,7 +111,7 @@ Outcome ChangingRegion::evaluate_four_abreast(GroupData& data, const Eigen::Vect
 // Whether the matrices that a group keeps are those of the step in hand.  Steps of one size differ by the rounding of
 // their times.  Matrices of flowing pore water depend on theta times the step alone.
 bool ChangingRegion::matrices_stand(const GroupData& data) const {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = rounding::kText;
   const auto [dt, flow_dt, theta] = data.step_of_matrices;
   const StepTime& now = element_->step_time();
   const auto same = [](double a, double b) { return std::abs(a - b) <= kRounding * b; };

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -115,7 +116,7 @@ double Condensation::step_norm(const Eigen::VectorXd& du) const {
 }
 
 double Condensation::rounding(const Eigen::VectorXd& du) const {
-  constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+  constexpr double kRounding = rounding::kFewProducts;
   find_kept_motion(du);
   return kRounding * matrix_.S_norm() * kept_du_.lpNorm<Eigen::Infinity>();
 }

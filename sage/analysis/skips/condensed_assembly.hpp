@@ -3,11 +3,12 @@
 
 #include "sage/analysis/skips/assembly_by_regions.hpp"
 #include "sage/analysis/skips/condensation.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
 // What one solution leaves of the forces is rounding, times the stiffness ratio within the region.
-inline constexpr double kRegionRounding = 1e-14;
+inline constexpr double kRegionRounding = rounding::kSolution;
 
 class CondensedAssembly final : public AssemblyByRegions {
  public:

@@ -7,6 +7,7 @@
 
 #include "sage/analysis/skips/wrapped_policy.hpp"
 #include "sage/core/archive.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -32,7 +33,7 @@ class Repeats {
   }
 
  private:
-  static constexpr double kRounding = 1e-14;
+  static constexpr double kRounding = rounding::kSolution;
   double size_ = 0.0;   // of the last step, where it was linear; 0 = it was not
   double force_ = 0.0;  // of the last step that was solved
 };
