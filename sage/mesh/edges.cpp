@@ -46,6 +46,22 @@ std::vector<CutEdge> cut_edges_of_sides(const EdgeTable& edges, int first_made) 
                    [](const EdgeTable::Edge& edge, int known) { return edge.solids <= 1 || known > 0; });
 }
 
+// For a field of corners alone, where middle nodes count as made ones, since they become corners.  Outer edges, and inner ones but
+// those that cross from one side of the model to another.
+std::vector<CutEdge> cut_edges_of_corners(const EdgeTable& edges, int first_made) {
+  std::vector<char> outer(static_cast<std::size_t>(first_made), 0);
+  for (const EdgeTable::Edge& edge : edges.edges())
+    if (edge.solids <= 1) outer[edge.ends.first] = outer[edge.ends.second] = 1;
+  std::vector<CutEdge> cut = cut_edges(edges, first_made, [&](const EdgeTable::Edge& edge, int) {
+    return edge.solids <= 1 || outer[edge.ends.first] == 0 || outer[edge.ends.second] == 0;
+  });
+  for (CutEdge& edge : cut) {
+    edge.made.insert(edge.made.end(), edge.known.begin() + 1, edge.known.end() - 1);
+    edge.known.erase(edge.known.begin() + 1, edge.known.end() - 1);
+  }
+  return cut;
+}
+
 // All that lie between two listed nodes, and those that have known nodes inside.
 std::vector<CutEdge> cut_edges_between(const std::vector<int>& listed, const EdgeTable& edges, int first_made) {
   std::vector<char> is_listed(static_cast<std::size_t>(first_made), 0);
@@ -215,10 +231,11 @@ void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {
   for (Stage& stage : model.stages) follow_field(supports, field, stage.field_fixities, edges);
 }
 
-// Between two exits of one stage there are exits.
-void follow_exits(std::vector<Exit>& exits, const std::vector<CutEdge>& edges) {
+// Between two exits of one stage there are exits.  field: as of an exit.
+void follow_exits(std::vector<Exit>& exits, int field, const std::vector<CutEdge>& edges) {
   std::unordered_map<int, Exit> given;
-  for (const Exit& exit : exits) given[exit.node] = exit;
+  for (const Exit& exit : exits)
+    if (exit.field == field) given[exit.node] = exit;
   if (given.empty()) return;
   for (const CutEdge& edge : edges)
     for (const OnEdge& made : edge.made) {
@@ -297,9 +314,15 @@ void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made) {
   Supports supports(model.mesh.nodes());
   supports.follow(model.fixities, cut);
   for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
+  const int pores = model.pore_field();
   for (std::size_t field = 1; field < model.unknowns.size(); ++field)
-    inherit_field(model, static_cast<int>(field), cut);
-  for (Stage& stage : model.stages) follow_exits(stage.exits, cut);
+    if (static_cast<int>(field) != pores) inherit_field(model, static_cast<int>(field), cut);
+  for (Stage& stage : model.stages) follow_exits(stage.exits, -1, cut);
+  if (pores > 0) {
+    const std::vector<CutEdge> corners = cut_edges_of_corners(edges, first_made);
+    inherit_field(model, pores, corners);
+    for (Stage& stage : model.stages) follow_exits(stage.exits, pores, corners);
+  }
   for (Report& report : model.reports)
     if (!follows_a_line(report)) inherit_report(report, cut);
 }
