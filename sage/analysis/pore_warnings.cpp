@@ -63,11 +63,22 @@ double area_of(const Eigen::Matrix2Xd& x, int corners) {
   return 0.5 * twice;
 }
 
+// Where water can leave is what it was in an earlier stage in which water flows: that has been said.
+bool goes_on(const Model& model, const Stage& stage) {
+  for (auto s = static_cast<std::size_t>(&stage - model.stages.data()); s > 0; --s) {
+    const Stage& one = model.stages[s];
+    if (!one.births.empty() || !one.deaths.empty() || !one.field_fixities.empty() || !one.exits.empty())
+      return false;
+    if (model.stages[s - 1].pores == PoreWater::flows) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<Diagnostic> closed_part_warnings(const Model& model, const Stage& stage, const Activity& activity,
                                              const std::vector<int>& exits) {
-  if (stage.pores != PoreWater::flows) return {};
+  if (stage.pores != PoreWater::flows || goes_on(model, stage)) return {};
   const std::vector<int> part = connected_parts(
       model, [&](std::size_t g, int) { return activity.group[g] != 0 && model.groups[g].entry->has_pores(); });
   const int parts = part.empty() ? 0 : *std::ranges::max_element(part) + 1;
