@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "sage/builder/pore_mesh.hpp"
 #include "sage/core/point_driver.hpp"
@@ -15,6 +16,7 @@ namespace sage::app {
 namespace {
 
 constexpr double kWaterWeight = 9.81;
+const UnitSystem kUnits{"m", "kN", "kPa", 101.325, kWaterWeight};
 constexpr double kShrink = 20.0;  // largest element over the smallest, along each side
 
 PoreMesh mesh_of(const ClosedSpecimen& specimen) {
@@ -128,6 +130,18 @@ StageInput cell_stage(const ClosedSpecimen& specimen, const PoreMesh& mesh) {
   return stage;
 }
 
+LawPtr law_of(const MaterialInput& material, const Catalogue& catalogue) {
+  const auto& entries = catalogue.materials.entries();
+  const auto found = std::ranges::find(entries, material.law, [](const auto& one) { return one.second.name; });
+  if (found == entries.end()) throw std::invalid_argument(material.law + " is no law of the catalogue");
+  std::vector<double> values;
+  for (const Parameter& parameter : found->second.parameters) {
+    const auto given = material.parameters.find(parameter.name);
+    values.push_back(given != material.parameters.end() ? given->second : parameter.fallback);
+  }
+  return found->second.law_for(values, kUnits, material.name);
+}
+
 StageInput stage_of(const SpecimenPart& part, const std::vector<int>& platen, double height) {
   StageInput stage{.title = part.duration > 0.0 ? "water free to move" : "no water moves",
                    .increments = part.increments};
@@ -146,7 +160,7 @@ ModelInput specimen_input(const ClosedSpecimen& specimen, const std::vector<Spec
   ModelInput input;
   input.name = input.title = "closed specimen between rough platens";
   input.geometry = Geometry::axisymmetric;
-  input.units = {"m", "kN", "kPa", 101.325, kWaterWeight};
+  input.units = kUnits;
   input.materials = {specimen.skeleton,
                      {"pore_flow", {{"permeability", kWaterWeight * specimen.permeability}}}};
   mesh.write(input);
@@ -178,9 +192,9 @@ SpecimenCurve run_specimen(const ClosedSpecimen& specimen, const std::vector<Spe
 
 std::vector<FrictionlessState> frictionless_test(const ClosedSpecimen& specimen, double strain, int steps,
                                                  const Catalogue& catalogue) {
-  const Model model = build_model(specimen_input(specimen, {{}}), catalogue);
-  const SolidLaw& law = *std::get<const SolidLaw*>(model.materials.front().law_ref());
-  PointDriver<4> point(law, Vector4(-specimen.cell, -specimen.cell, -specimen.cell, 0.0));
+  const LawPtr law = law_of(specimen.skeleton, catalogue);
+  PointDriver<4> point(*std::get<std::unique_ptr<SolidLaw>>(law),
+                       Vector4(-specimen.cell, -specimen.cell, -specimen.cell, 0.0));
   constexpr std::array<Control, 4> kControl{Control::strain, Control::strain, Control::strain, Control::strain};
   const double d = strain / steps;
   std::vector<FrictionlessState> states;
