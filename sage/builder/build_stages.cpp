@@ -96,8 +96,9 @@ TimeTable read_history_of_time(Builder& b, const CardView& card, int field) {
   for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2)
     table.emplace_back((*numbers)[i], (*numbers)[i + 1]);
   const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
-  if (field == 0 || !b.model.unknowns[field].of_pores)
-    b.error("S579", card.where("history"), "a history is for the unknown excess_pressure alone");
+  const auto suits = [](const UnknownField& one) { return one.of_pores || one.name == "head"; };
+  if (field == 0 || !suits(b.model.unknowns[field]))
+    b.error("S579", card.where("history"), "a history is for the unknowns excess_pressure and head alone");
   else if (!numbers || numbers->size() % 2 != 0 || table.empty() || text.size() > kColumnsOfText)
     b.error("S579", card.where("history"),
             "a history is pairs of a time and a share, with blanks between, of 80 characters at most");
@@ -210,7 +211,7 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
   EdgeLoad load;
   load.normal = {card.real("normal1"), card.real("normal2")};
   load.shear = {card.real("shear1"), card.real("shear2")};
-  for (const char* field : {"normal1", "normal2", "shear1", "shear2"}) b.usable(card, field, card.real(field));
+  for (const char* name : {"normal1", "normal2", "shear1", "shear2"}) b.usable(card, name, card.real(name));
   const int edge = card.integer("edge") - 1;
   load.line = card.card().line;
   const NumberRange range = b.range(card, "element");
@@ -251,6 +252,77 @@ void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out)
 }
 
 namespace {
+
+// Shares of what a flow has brought in: its own shares over the time, each interval with the mean of both ends.
+TimeTable sum_over_time(const TimeTable& flow, double duration) {
+  TimeTable sum{{0.0, 0.0}};
+  const auto go_to = [&](double time) {
+    const double from = sum.back().first;
+    if (time > from)
+      sum.emplace_back(time,
+                       sum.back().second + 0.5 * (time - from) * (share_at(flow, from) + share_at(flow, time)));
+  };
+  for (const auto& [time, share] : flow) go_to(std::min(time, duration));
+  go_to(duration);
+  return sum;
+}
+
+// What an inflow of q1 to q2 per area along an edge is at its two corners, where pressures are linear.
+std::array<double, 2> inflow_at_corners(const Model& model, const Group& group, int element, int edge,
+                                        const Vector2& q) {
+  const std::vector<int>& local = group.element->edges()[edge];
+  const auto at = [&](int i) -> Vector2 { return model.mesh.x.col(group.nodes_of(element)[i]); };
+  const Vector2 first = at(local[0]), last = at(local[1]);
+  const int middle = middle_of(local);
+  const Vector2 bend = middle < 0 ? Vector2(Vector2::Zero()) : Vector2(at(middle) - 0.5 * (first + last));
+  std::array<double, 2> sums{};
+  for (const auto& [s, weight] :
+       {std::pair{-std::sqrt(0.6), 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {std::sqrt(0.6), 5.0 / 9.0}}) {
+    const std::array<double, 2> N{0.5 * (1.0 - s), 0.5 * (1.0 + s)};
+    const Vector2 place = N[0] * first + N[1] * last + (1.0 - s * s) * bend;
+    const double length = (0.5 * (last - first) - 2.0 * s * bend).norm();
+    const double measure = model.geometry == Geometry::axisymmetric ? 2.0 * kPi * place.x() : 1.0;
+    for (std::size_t i = 0; i < 2; ++i)
+      sums[i] += weight * measure * length * N[i] * (N[0] * q[0] + N[1] * q[1]);
+  }
+  return sums;
+}
+
+// An edge of soil with pore water takes an inflow in place of a pressure: loads on its corners.
+void add_inflow(Builder& b, const CardView& card, const EdgeLoad& edge, int field, Stage& stage) {
+  const Group& group = b.model.groups[edge.group];
+  const int element = group.element_numbers[edge.element];
+  if (!group.solid() || !group.entry->has_pores() || !edge.shear.isZero(0.0))
+    return b.error(
+        "S230", card.where("unknown"),
+        "element " + std::to_string(element) + " (" + group.element_name +
+            "): an inflow of pore water, without shear, is for edges of solids that solve for its pressure");
+  const TimeTable flow = read_history_of_time(b, card, field);
+  const std::array<double, 2> inflow = inflow_at_corners(b.model, group, edge.element, edge.edge, edge.normal);
+  const std::vector<int>& local = group.element->edges()[edge.edge];
+  for (std::size_t i = 0; i < 2; ++i) {
+    const int node = group.nodes_of(edge.element)[local[i]];
+    const double value = -inflow[i] * (flow.empty() ? stage.duration : 1.0);
+    stage.field_loads.push_back(
+        {field, node, value, edge.line, flow.empty() ? flow : sum_over_time(flow, stage.duration)});
+  }
+}
+
+// A pressure, or an inflow of pore water in its columns.
+void read_edge_action(Builder& b, const CardView& card, Stage& stage) {
+  const int field = read_unknown(b, card);
+  if (field < 0) return;
+  if (field == 0) {
+    read_history_of_time(b, card, field);
+    return read_pressure(b, card, stage.pressures);
+  }
+  if (!b.model.unknowns[field].of_pores)
+    return b.error("S230", card.where("unknown"),
+                   "what acts on an edge is a pressure (blank) or an inflow of pore water (excess_pressure)");
+  std::vector<EdgeLoad> edges;
+  read_pressure(b, card, edges);
+  for (const EdgeLoad& edge : edges) add_inflow(b, card, edge, field, stage);
+}
 
 // Values of an initial card that mean something; those of a history stand apart.
 int values_of(InitialKind kind, const Group* group) {
@@ -587,7 +659,7 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
   for (const CardView& c : b.deck.all("fixity", card))
     read_fixity(b, c, &stage.exits, stage.fixities, stage.field_fixities);
   for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);
-  for (const CardView& c : b.deck.all("pressure", card)) read_pressure(b, c, stage.pressures);
+  for (const CardView& c : b.deck.all("pressure", card)) read_edge_action(b, c, stage);
   for (const CardView& c : b.deck.all("edge_load", card)) read_edge_load(b, c, stage.pressures, stage.loads);
   for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
   for (const CardView& c : b.deck.all("death", card)) read_groups(b, c, true, stage.deaths);

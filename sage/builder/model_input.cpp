@@ -224,15 +224,17 @@ void InputCards::add_stage(const StageInput& stage, int number) {
       add("load", fields, card);
     }
   for (const PressureInput& pressure : stage.pressures)
-    for (const int element : pressure.elements)
-      add("pressure",
-          {{"element", static_cast<double>(element)},
-           {"edge", static_cast<double>(pressure.edge)},
-           {"normal1", pressure.normal1},
-           {"normal2", pressure.normal2},
-           {"shear1", pressure.shear1},
-           {"shear2", pressure.shear2}},
-          card);
+    for (const int element : pressure.elements) {
+      std::vector<NewField> fields{{"element", static_cast<double>(element)},
+                                   {"edge", static_cast<double>(pressure.edge)},
+                                   {"normal1", pressure.normal1},
+                                   {"normal2", pressure.normal2},
+                                   {"shear1", pressure.shear1},
+                                   {"shear2", pressure.shear2}};
+      if (!pressure.unknown.empty()) fields.push_back({"unknown", 0.0, {}, pressure.unknown});
+      if (!pressure.history.empty()) fields.push_back({"history", 0.0, {}, history_text(pressure.history)});
+      add("pressure", fields, card);
+    }
   for (const auto& [name, groups] : {std::pair{"birth", &stage.births}, {"death", &stage.deaths}}) {
     std::vector<NewField> fields;
     for (const int group : *groups) fields.push_back({"groups", static_cast<double>(group)});

@@ -54,6 +54,8 @@ struct PressureInput {
   std::vector<int> elements;
   int edge = 1;
   double normal1 = 0.0, normal2 = 0.0, shear1 = 0.0, shear2 = 0.0;
+  std::string unknown = {};  // excess_pressure: normal1 and normal2 are inflows per area and time
+  TimeTable history = {};    // of such an inflow
 };
 
 struct InitialInput {
