@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sage/analysis/element_work.hpp"
+
 namespace sage {
 
 namespace {
@@ -60,7 +62,7 @@ double mean_path_error(const Mesh& mesh, const std::vector<GroupData>& groups,
                        const std::vector<char>& group_linear, const StepTime& step_time) {
   WeightedMean mean;
   for (std::size_t g = 0; g < groups.size(); ++g)
-    if (groups[g].active && !group_linear[g])
+    if (groups[g].active && !group_linear[g] && !has_matrix_of_step(groups[g]))
       std::visit([&](const auto* law) { add_path_error(mesh, groups[g], *law, step_time, mean); },
                  groups[g].law);
   return mean.weight > 0.0 ? mean.sum / mean.weight : 0.0;

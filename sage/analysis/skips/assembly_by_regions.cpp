@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sage/analysis/congruent.hpp"
 #include "sage/analysis/skips/kept_matrices.hpp"
 #include "sage/analysis/tangent.hpp"
 
@@ -12,14 +13,15 @@ AssemblyByRegions::AssemblyByRegions(const Model& model, const Scene& scene, con
                                      WorkCounters& work)
     : Assembly(model, scene, work,
                [&](GroupData& data, std::size_t g) {
-                 data.constant = scene.group_linear[g] != 0 && skips.elements &&
-                                 ConstantRegion::suits(*data.group, data.law);
+                 const bool in_step = skips.elements && ConstantRegion::suits_in_step(model, data);
+                 data.constant = in_step || (scene.group_linear[g] != 0 && skips.elements &&
+                                             ConstantRegion::suits(*data.group, data.law));
                  find_fours(data);
                }),
       skips_(skips),
       changing_(groups_, element_, work),
       constant_(model, groups_, element_, work),
-      deferred_(std::ranges::any_of(model.groups, &Group::structure)) {
+      deferred_(std::ranges::any_of(model.groups, &Group::structure), constant_.any_flows()) {
   if (!std::ranges::all_of(groups_, &GroupData::constant)) changing_.size_forces(dof_map_.dofs());
 }
 
@@ -63,7 +65,8 @@ void AssemblyByRegions::make_room_for_matrices(std::size_t group) {
   GroupData& data = groups_[group];
   if (data.keeps_matrices() || data.group->elements() == 0) return;
   if (data.constant)
-    constant_.make_matrices(data, scene_->shapes[group]);
+    constant_.make_matrices(data, constant_.flows(data) ? shapes_of(model_->mesh, *data.group, model_->geometry)
+                                                        : scene_->shapes[group]);
   else if (skips_.factors && !scene_->linear)
     keep_matrices(data);
 }
@@ -75,16 +78,20 @@ void AssemblyByRegions::fill(Tangent& tangent) const {
       changing_.add_kept(data, tangent);
       continue;
     }
+    std::vector<double> room(data.matrix_size());
     for (int e = 0; e < data.group->elements(); ++e) {
       element_.stop_if_asked_at(e);
-      add_matrix(data, e, data.matrix_of(e), tangent);
+      add_matrix(data, e, constant_.matrix_of(data, e, room.data()), tangent);
     }
   }
 }
 
 Outcome AssemblyByRegions::evaluate_changing(const Eigen::VectorXd& du, Tangent* tangent) {
   ++(tangent != nullptr ? work_->assemblies : work_->residuals);
-  const auto elements = [&] { return changing_.evaluate(du, tangent); };
+  const auto elements = [&] {
+    if (tangent != nullptr && constant_.take_step()) tangent->differs();
+    return changing_.evaluate(du, tangent);
+  };
   Outcome outcome = Outcome::ok;
   if (tangent != nullptr) {
     const bool all_kept = std::ranges::all_of(groups_, [](const GroupData& data) {
@@ -128,9 +135,10 @@ void AssemblyByRegions::commit_constant() {
     if (data.active && data.constant) std::swap(data.force, data.trial_force);
 }
 
-void AssemblyByRegions::commit_again(const Eigen::VectorXd& /*du*/) {
+void AssemblyByRegions::commit_again(const Eigen::VectorXd& du) {
   commit_changing();
   commit_constant();
+  constant_.commit(du);
 }
 
 void AssemblyByRegions::commit(const Eigen::VectorXd& du) {
@@ -138,7 +146,7 @@ void AssemblyByRegions::commit(const Eigen::VectorXd& du) {
   const bool constant =
       std::ranges::any_of(groups_, [](const GroupData& data) { return data.active && data.constant; });
   if (!constant) return;
-  deferred_.move(du);
+  deferred_.move(du, constant_.before_commit(), element_.step_time());
   if (!skips_.states) recover_states();
 }
 
@@ -149,6 +157,7 @@ void AssemblyByRegions::exchange(Archive& archive, bool before_step) {
     if (data.constant) archive(tried && data.active && !archive.reading() ? data.trial_force : data.force);
   }
   deferred_.exchange(archive);
+  constant_.exchange(archive, before_step);
 }
 
 }  // namespace sage

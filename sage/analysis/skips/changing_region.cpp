@@ -6,7 +6,6 @@
 
 #include "sage/analysis/skips/kept_matrices.hpp"
 #include "sage/analysis/tangent.hpp"
-#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -108,20 +107,9 @@ Outcome ChangingRegion::evaluate_four_abreast(GroupData& data, const Eigen::Vect
   return divides(data) ? evaluate_on_threads(data, pass, tangent) : evaluate_in_units(data, pass, tangent);
 }
 
-// Whether the matrices that a group keeps are those of the step in hand.  Steps of one size differ by the rounding of
-// their times.  Matrices of flowing pore water depend on theta times the step alone.
-bool ChangingRegion::matrices_stand(const GroupData& data) const {
-  constexpr double kRounding = rounding::kText;
-  const auto [dt, flow_dt, theta] = data.step_of_matrices;
-  const StepTime& now = element_->step_time();
-  const auto same = [](double a, double b) { return std::abs(a - b) <= kRounding * b; };
-  return data.keeps_matrices() && now.dt > 0.0 && dt > 0.0 && same(now.theta * now.flow_dt, theta * flow_dt) &&
-         (same(now.dt, dt) || data.group->entry->has_pores());
-}
-
 Outcome ChangingRegion::evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent) {
   const bool in_step = has_matrix_of_step(data);
-  if (tangent != nullptr && in_step && matrices_stand(data)) tangent = nullptr;
+  if (tangent != nullptr && in_step && matrices_stand(data, element_->step_time())) tangent = nullptr;
   double* const K = tangent != nullptr ? element_->K() : nullptr;
   for (int e = 0; e < data.group->elements(); ++e) {
     element_->stop_if_asked_at(e);

@@ -33,7 +33,6 @@ class ChangingRegion {
 
  private:
   bool divides(const GroupData& data) const;
-  bool matrices_stand(const GroupData& data) const;
   Outcome evaluate_four_abreast(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
   Outcome evaluate_in_units(GroupData& data, const PassFourAbreast& pass, Tangent* tangent);
   Outcome evaluate_on_threads(GroupData& data, const PassFourAbreast& pass, Tangent* tangent);

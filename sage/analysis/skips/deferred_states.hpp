@@ -12,14 +12,19 @@ namespace sage {
 // Structures have a motion of their own: tables of their forces are written where no output needs the soil.
 class DeferredStates {
  public:
-  // structures: some group is one.
-  explicit DeferredStates(bool structures) : has_structures_(structures) {}
+  // structures: some group is one.  seeps: in some group water flows.
+  DeferredStates(bool structures, bool seeps) : has_structures_(structures), seeps_(seeps) {}
 
   // A step was committed.
   void move(const Eigen::VectorXd& du) {
     add(du, others_);
     if (has_structures_) add(du, structures_);
     is_behind_ = true;
+  }
+  // before: where water flows, the unknowns at the start of the step.
+  void move(const Eigen::VectorXd& du, const Eigen::VectorXd& before, const StepTime& time) {
+    if (seeps_) seep(du, before, time);
+    move(du);
   }
   bool behind() const { return is_behind_; }
   // Brings the states of active constant groups up to date, and allocates them at the first call.  Large groups use so many
@@ -31,6 +36,8 @@ class DeferredStates {
     archive(others_);
     archive(is_behind_);
     if (has_structures_) archive(structures_);
+    if (seeps_) archive(start_);
+    if (seeps_) archive(seepage_);
   }
 
  private:
@@ -39,8 +46,14 @@ class DeferredStates {
     sum += du;
   }
 
+  void seep(const Eigen::VectorXd& du, const Eigen::VectorXd& before, const StepTime& time);
+  void bring_up_to_date(GroupData& data, const Eigen::VectorXd& behind, const ElementWork& element,
+                        WorkCounters& work, int threads) const;
+
   Eigen::VectorXd others_, structures_;  // the displacement since then, every dof; no entries: nothing moved
-  bool has_structures_ = false, is_behind_ = false;
+  // Where water flows: the unknowns then, and the integral over the time since of those that steps have let flow.
+  Eigen::VectorXd start_, seepage_;
+  bool has_structures_ = false, seeps_ = false, is_behind_ = false;
 };
 
 }  // namespace sage

@@ -1,9 +1,11 @@
 #include "sage/analysis/skips/kept_matrices.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "sage/analysis/element_work.hpp"
+#include "sage/math/rounding.hpp"
 
 namespace sage {
 
@@ -23,6 +25,16 @@ bool replace_matrix(GroupData& data, int element, const double* K) {
   if (std::memcmp(kept, K, size * sizeof(double)) == 0) return false;
   std::copy_n(K, size, kept);
   return true;
+}
+
+// Steps of one size differ by the rounding of their times.  Matrices of flowing pore water depend on theta times the step
+// alone.
+bool matrices_stand(const GroupData& data, const StepTime& now) {
+  constexpr double kRounding = rounding::kText;
+  const auto [dt, flow_dt, theta] = data.step_of_matrices;
+  const auto same = [](double a, double b) { return std::abs(a - b) <= kRounding * b; };
+  return data.keeps_matrices() && now.dt > 0.0 && dt > 0.0 && same(now.theta * now.flow_dt, theta * flow_dt) &&
+         (same(now.dt, dt) || data.group->entry->has_pores());
 }
 
 }  // namespace sage

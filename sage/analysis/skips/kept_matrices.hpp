@@ -2,7 +2,7 @@
 // again only where one has.
 #pragma once
 
-#include "sage/analysis/group_data.hpp"
+#include "sage/analysis/step_time.hpp"
 
 namespace sage {
 
@@ -11,5 +11,8 @@ void keep_matrices(GroupData& data);
 
 // True where a matrix differs from the one that is kept, which it replaces.
 bool replace_matrix(GroupData& data, int element, const double* K);
+
+// Whether the matrices that such a group keeps are those of this step, where each step size has its own (has_matrix_of_step).
+bool matrices_stand(const GroupData& data, const StepTime& now);
 
 }  // namespace sage

@@ -6,7 +6,7 @@ namespace sage {
 
 bool SteppingSkips::contracts(const RunParts& run) const {
   return skips_.contraction && run.stage().method == Method::newton && !run.tangent().constant() &&
-         is_large(run.assembly().equations());
+         is_large(run.assembly().equations()) && !linear_in_step(run.assembly());
 }
 
 bool SteppingSkips::predicts(const RunParts& run) const {
