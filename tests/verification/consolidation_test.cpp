@@ -103,6 +103,33 @@ TEST(Consolidation, TwoDrainsAreOneOfHalfTheHeight) {
   EXPECT_NEAR(middle(true), middle(false), 1e-12);
 }
 
+// The middle nodes of a drained side become corners, and are drained: at a support and at an exit.
+TEST(Consolidation, FinerMeshesKeepTheirDrains) {
+  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+    for (const bool exit : {false, true}) {
+      SCOPED_TRACE(element);
+      const auto with = [&](int rows, int columns, int refine) {
+        Column column(graded(0.0, 1.0, rows), element, 0.0, columns);
+        column.input.supports.pop_back();
+        column.load(shut_in());
+        column.input.stages.push_back(consolidation(0.2, 3));
+        SupportInput drain = drained(column.mesh.corner_row(column.top()));
+        drain.exit = exit;
+        column.input.stages.back().supports = {drain};
+        BuildOptions options;
+        options.refine = refine;
+        const WholeRun done = bench().run(build_model(column.input, bench().catalogue(), options));
+        EXPECT_TRUE(done.completed()) << done.failure;
+        return Vector2(done.u(column.mesh.node(columns, column.top())).y(),
+                       pressure(done, column.mesh.node(0, 0)));
+      };
+      const Vector2 refined = with(4, 1, 1), given = with(8, 2, 0);
+      EXPECT_NEAR(refined.x(), given.x(), 1e-11);
+      EXPECT_NEAR(refined.y(), given.y(), 1e-11);
+      EXPECT_LT(given.y(), 0.99);
+    }
+}
+
 // ---- steps in time ----
 
 // Terzaghi's column, loaded at once, in steps that are chosen by their error.
@@ -612,6 +639,59 @@ TEST(Consolidation, AnExitOpensUnderPressureAlone) {
   }
 }
 
+// An inflow of 2 per area on half of the top: what comes in is q times the area and the time.
+TEST(Consolidation, AnInflowOnEdgesIsAVolumePerAreaAndTime) {
+  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+    for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+      SCOPED_TRACE(element);
+      Block2d block(element, geometry);
+      block.input.supports = {held(block.mesh.column(0), true, false), held(block.mesh.row(0), true, true),
+                              drained(block.mesh.corner_row(0))};
+      StageInput wet = consolidation(0.5, 4);
+      std::vector<int> half = block.mesh.upper_elements();
+      half.resize(2);
+      wet.pressures = {{.elements = half,
+                        .edge = block.mesh.upper_edge(),
+                        .normal1 = 2.0,
+                        .normal2 = 2.0,
+                        .unknown = "excess_pressure"}};
+      block.input.stages = {wet};
+      const WholeRun even = run(block.input);
+      const double x = block.mesh.x[2], area = geometry == Geometry::axisymmetric ? kPi * x * x : x;
+      const DofMap map(*even.model);
+      const Eigen::VectorXd& loads = even.last().external;
+      const double brought = -loads.tail(map.dofs() - map.displacements()).sum();
+      EXPECT_NEAR(brought, 2.0 * 0.5 * area, 1e-12);
+      // In time: twice as much in the first tenth, nothing in the rest.
+      block.input.stages[0].pressures[0].history = {{0.0, 2.0}, {0.1, 2.0}, {0.1 + 1e-9, 0.0}};
+      block.input.stages[0].output_times = {0.05, 0.3};
+      const WholeRun rain = run(block.input);
+      const auto volume = [&](double share) {
+        for (const Snapshot& at : rain.increments)
+          if (std::abs(at.load_factor - share) < 1e-9)
+            return -at.external.tail(map.dofs() - map.displacements()).sum();
+        return std::nan("");
+      };
+      const double first = 4.0 * 0.1 * area;
+      EXPECT_NEAR(volume(0.1), 0.5 * first, 1e-8);
+      EXPECT_NEAR(volume(0.6), first, 1e-7);
+      EXPECT_NEAR(volume(1.0), first, 1e-7);
+    }
+}
+
+// From q1 to q2 along the right side of a column: the mean of both.
+TEST(Consolidation, AnInflowMayVaryAlongAnEdge) {
+  Column column(graded(0.0, 1.0, 4));
+  StageInput wet = consolidation(1.0, 1);
+  wet.pressures = {{.elements = {4}, .edge = 2, .normal1 = 1.0, .normal2 = 3.0, .unknown = "excess_pressure"}};
+  column.input.stages = {wet};
+  const WholeRun done = run(column.input);
+  const DofMap map(*done.model);
+  const auto load = [&](int j) { return -done.last().external[map.of(done.index(column.mesh.node(2, j)), 1)]; };
+  EXPECT_NEAR(load(6) + load(8), 2.0 * 0.25, 1e-14);
+  EXPECT_NEAR(load(8) - load(6), 2.0 * 0.25 / 6.0, 1e-14);
+}
+
 // Stages without load or time change nothing, in any order.
 TEST(Consolidation, EmptyStagesChangeNothing) {
   Block2d block("quad8p4");
@@ -679,6 +759,79 @@ TEST(Consolidation, StagesHandOverWithoutAJump) {
         EXPECT_LT((ends[1] - ends[0]).norm(), 1e-9 * ends[2].norm());
         EXPECT_LT((ends[3] - ends[2]).norm(), 1e-9 * ends[2].norm());
       }
+}
+
+// ---- undrained groups and seepage beside consolidation ----
+
+// A layer of quad8p4 on one of quad8, which water cards can shut in; a lattice of flow elements gives heads to both.
+struct TwoSoils {
+  Block2d block{"quad8p4"};
+  std::string water;  // cards of a model file
+
+  TwoSoils() {
+    GroupInput lower = block.input.groups[0], upper = lower;
+    lower.element = "quad8";
+    lower.second_material = 0;
+    const auto half = static_cast<std::ptrdiff_t>(upper.elements.size() / 2);
+    lower.elements.erase(lower.elements.begin() + half, lower.elements.end());
+    upper.elements.erase(upper.elements.begin(), upper.elements.begin() + half);
+    block.input.groups = {lower, upper};
+  }
+  // The lower layer, from that stage on.
+  void shut(int stage) { card("undrained", stage, "group = 1\nvalue1 = 1000.0\n"); }
+  void open(int stage) { card("drained", stage, "group = 1\n"); }
+  void level(int stage, double y) {
+    card("line", stage, "values = [[0.0, " + std::to_string(y) + "], [2.0, " + std::to_string(y) + "]]\n");
+  }
+  void card(const std::string& kind, int stage, const std::string& rest) {
+    water += "\n[[water]]\nkind = \"" + kind + "\"\nstage = " + std::to_string(stage) + "\n" + rest;
+  }
+  WholeRun run() const {
+    Diagnostics notes;
+    const std::string text =
+        model_file_text(build_model(block.input, bench().catalogue()), bench().catalogue(), notes) + water;
+    WholeRun done = bench().run(build_model(read_model_file_text(text, "two.sage.toml"), bench().catalogue()));
+    EXPECT_TRUE(done.completed()) << done.failure;
+    return done;
+  }
+};
+
+// Elastic soil: whichever order the lower layer is loaded in, shut in, opened, its steady pressure changed and the upper layer
+// left to consolidate, the end is that of the drained soil under all of it, and a stage without load or time changes nothing.
+TEST(Consolidation, UndrainedGroupsAndSteadyPressuresHandOver) {
+  enum class Event { load, shut, open, level };
+  const std::vector<std::vector<Event>> orders{{Event::shut, Event::load, Event::open, Event::level},
+                                               {Event::load, Event::shut, Event::level, Event::open},
+                                               {Event::level, Event::shut, Event::load, Event::open},
+                                               {Event::shut, Event::open, Event::level, Event::load}};
+  TwoSoils all;
+  all.block.load({.title = "drained"});
+  all.level(1, 1.5);
+  const Eigen::VectorXd drained_u = all.run().last().u;
+  const auto n = DofMap(build_model(all.block.input, bench().catalogue())).displacements();
+  for (const std::vector<Event>& order : orders) {
+    TwoSoils soils;
+    int stage = 0;
+    for (const Event event : order) {
+      ++stage;
+      if (event == Event::load)
+        soils.block.load(consolidation(0.2, 2));
+      else
+        soils.block.input.stages.push_back(consolidation(0.2, 2));
+      if (event == Event::shut) soils.shut(stage);
+      if (event == Event::open) soils.open(stage);
+      if (event == Event::level) soils.level(stage, 1.5);
+      soils.block.input.stages.push_back(consolidation(1e-12, 1));
+      ++stage;
+    }
+    soils.block.input.stages.push_back(consolidation(1e6, 12, 10.0));
+    const WholeRun done = soils.run();
+    EXPECT_LT((done.last().u.head(n) - drained_u.head(n)).norm(), 1e-9 * drained_u.head(n).norm());
+    std::vector<Eigen::VectorXd> ends(soils.block.input.stages.size());
+    for (const Snapshot& at : done.increments) ends[at.stage] = at.u;
+    for (std::size_t i = 1; i < ends.size(); i += 2)
+      EXPECT_LT((ends[i] - ends[i - 1]).norm(), 1e-9 * drained_u.norm()) << i;
+  }
 }
 
 // A drained load while pressures are kept: what it squeezes out is no load of the next stage.
@@ -968,6 +1121,52 @@ TEST(Consolidation, OneFactorisationServesEqualSteps) {
   const WholeRun done = run(block.input);
   EXPECT_EQ(done.result.work.factorisations, 2);  // undrained, and the step
   EXPECT_LE(done.result.work.solves, 24);
+}
+
+// Forces of elastic soil by the matrices of a step, and states where they are needed: as with every element in every pass.
+TEST(Consolidation, MatricesOfAStepChangeNothing) {
+  struct LastStates final : Observer {
+    std::vector<std::vector<double>> sigma, eps, h;
+    bool wants_states(const Model& model, const StepReport& step) const override {
+      return step.stage + 1 == static_cast<int>(model.stages.size()) && step.increment == step.increments;
+    }
+    void on_increment(const Model& model, const StepReport& step, const Solution& now) override {
+      if (!wants_states(model, step)) return;
+      for (const GroupData& data : now.groups()) {
+        sigma.push_back(data.state.committed.sigma);
+        eps.push_back(data.state.committed.eps);
+        h.push_back(data.state.committed.h);
+      }
+    }
+  };
+  const auto near = [](const std::vector<double>& a, const std::vector<double>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    const Eigen::Map<const Eigen::VectorXd> x(a.data(), static_cast<Eigen::Index>(a.size())),
+        y(b.data(), x.size());
+    EXPECT_GT(y.norm(), 1e-3);
+    EXPECT_LT((x - y).norm(), 1e-11 * y.norm());
+  };
+  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+    for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+      SCOPED_TRACE(element);
+      Block2d block(element, geometry, 50.0);
+      block.load(shut_in());
+      block.input.stages.push_back(consolidation(1.0, 3, 1.5, 0.7));
+      block.load({.title = "kept"});
+      StageInput chosen = consolidation(3.0, 1);
+      chosen.time_error = 1e-3;
+      block.input.stages.push_back(chosen);
+      LastStates mine, all;
+      Observer *also_mine[] = {&mine}, *also_all[] = {&all};
+      const Model model = build_model(block.input, bench().catalogue());
+      RunSettings settings = bench().settings();
+      ASSERT_EQ(sage::run(model, bench().catalogue(), settings, also_mine).status, RunStatus::completed);
+      settings.skips.elements = false;
+      ASSERT_EQ(sage::run(model, bench().catalogue(), settings, also_all).status, RunStatus::completed);
+      near(mine.sigma.at(0), all.sigma.at(0));
+      near(mine.eps.at(0), all.eps.at(0));
+      near(mine.h.at(0), all.h.at(0));
+    }
 }
 
 TEST(Consolidation, RestartsToTheLastBit) {
