@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -22,9 +23,12 @@
 #include "sage/app/result_files.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/stored_heads.hpp"
+#include "sage/deck/source.hpp"
 #include "sage/messages/split_at.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/record/out_file.hpp"
+#include "sage/record/report.hpp"
+#include "sage/report/live_page.hpp"
 #include "sage/sweep/table.hpp"
 #include "solvers/choose_solver.hpp"
 
@@ -39,6 +43,7 @@ struct SweepCommand {
   std::filesystem::path folder = "out";
   std::string part;             // "K/N": a worker of others
   int parallel = 0, slurm = 0;  // workers; 0 = none
+  bool report = false;          // a page for each case
 };
 
 // "2/8" as {1, 8}.
@@ -92,11 +97,49 @@ void answer_sweep(const sweep::Sweep& all, const sweep::SweepResult& result,
            {"files", std::move(names)}};
 }
 
+// What the files of a case are called: not by its number, which another study gives to another case.
+std::string stem_of_case(const std::string& study, sweep::CaseKey key) {
+  return fmt::format("{}.case_{:016x}", study, key);
+}
+
+// Tables and page of a case.  None where the page is there.
+std::vector<std::unique_ptr<Observer>> page_of_case(const SweepCommand& command, const std::string& stem,
+                                                    const std::string& title, const std::string& deck) {
+  std::vector<std::unique_ptr<Observer>> observers;
+  std::error_code absent;
+  if (std::filesystem::exists(command.folder / (stem + ".html"), absent)) return observers;
+  observers.push_back(std::make_unique<Reports>(command.folder, stem, command.digits));
+  observers.push_back(std::make_unique<Csv>(command.folder, stem));
+  observers.push_back(std::make_unique<report::LivePage>(command.folder / (stem + ".h5"), title, deck,
+                                                         report::LivePage::kAtTheEnd));
+  return observers;
+}
+
+void ask_for_pages(const SweepCommand& command, const sweep::Sweep& all, const std::string& name,
+                   sweep::SweepOptions& options) {
+  options.observers = [&command, &all, name, deck = read_file(all.study().deck)](std::size_t index,
+                                                                                 sweep::CaseKey key) {
+    return page_of_case(command, stem_of_case(name, key),
+                        all.study().deck + " with " + sweep::case_words(all.study(), index), deck);
+  };
+}
+
 int finish_sweep(const SweepCommand& command, const sweep::Sweep& all, const sweep::SweepResult& result,
                  const std::filesystem::path& stem) {
   std::vector<std::filesystem::path> files{stem.string() + ".sweep.csv", stem.string() + ".sweep.svg"};
-  write_file(files[0], sweep::csv_text(all, result, command.digits));
+  std::function<std::string(sweep::CaseKey)> page;
+  if (command.report)
+    page = [&](sweep::CaseKey key) {
+      const std::string file = stem_of_case(stem.filename().string(), key) + ".html";
+      std::error_code absent;
+      return std::filesystem::exists(command.folder / file, absent) ? file : std::string();
+    };
+  write_file(files[0], sweep::csv_text(all, result, command.digits, page));
   write_file(files[1], sweep::plot_text(all, result));
+  if (command.report) {
+    files.emplace_back(stem.string() + ".sweep.html");
+    write_file(files[2], report::make_table_page(files[0]).html);
+  }
   const ProgressPause pause;
   fmt::print("{}", sweep::summary_text(all, result));
   print_files(files);
@@ -128,6 +171,7 @@ int run_sweep(const SweepCommand& command, const Catalogue& catalogue) {
     options.parts = parts;
     options.program = own_sum();
     options.stop_asked = [] { return interrupted(); };
+    if (command.report) ask_for_pages(command, all, name, options);
     options.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
     options.progress = [&](std::size_t done, std::size_t count) {
       task.part("cases", static_cast<int>(std::min(done + 1, count)), static_cast<int>(count));
@@ -177,6 +221,12 @@ Command sweep_command(CLI::App& parser, const Catalogue& catalogue) {
   CLI::Option* slurm =
       parser.add_option("--slurm", o->slurm, "number of tasks of an array job, submitted by sbatch")
           ->check(CLI::Range(1, 10'000));
+  parser
+      .add_flag("--report", o->report,
+                "also write an HTML page for each case, and STUDY.sweep.html, whose rows lead to them (not "
+                "with --parallel and --slurm)")
+      ->excludes(parallel)
+      ->excludes(slurm);
   part->excludes(parallel)->excludes(slurm);
   parallel->excludes(slurm);
   return [o, &catalogue] { return run_sweep(*o, catalogue); };

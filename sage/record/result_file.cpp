@@ -490,6 +490,8 @@ bool is_left_out(const FieldEntry& field, const std::vector<std::string>& asked)
 }
 
 constexpr int kWorthThreads = 20000;  // points
+// Points of all states.  Below that a thread that writes costs more by handing over than it saves.
+constexpr std::size_t kWorthOwnThread = 40000;
 
 int points_of(const Model& model) {
   int points = 0;
@@ -644,7 +646,8 @@ void ResultOutput::write_result(const Model& model, const RunResult& result,
       if (is_left_out(field, fields_.asked)) left_out.push_back(field.name);
       return is_left_out(field, fields_.asked);
     });
-  TableFile out(partial, path_, threads_ > 1);
+  const std::size_t numbers = static_cast<std::size_t>(points_of(model)) * (written_.size() + waiting_.size());
+  TableFile out(partial, path_, threads_ > 1 && numbers > kWorthOwnThread);
   out.text("/sage", "title", model.title);
   out.text("/sage", "deck", model.file);
   out.text("/sage", "program", "sagefe " SAGE_VERSION);

@@ -42,13 +42,25 @@ void LivePage::on_increment(const Model& model, const StepReport& report, const 
   if (due()) write(model);
 }
 
-void LivePage::write(const Model& model) {
-  const Clock::time_point begin = Clock::now();
-  PageRun run{result_, model, deck_name_, deck_};
-  run.goes_on = true;
+void LivePage::on_finish(const Model& model, const RunResult& result) {
+  if (seconds_ != kAtTheEnd) return;
+  const bool failed = result.status != RunStatus::completed;
+  write_file(std::filesystem::path(result_).replace_extension(".html"),
+             page_of(model, false, failed ? result.reason : std::string()).html);
+  ++written_;
+}
+
+Page LivePage::page_of(const Model& model, bool goes_on, const std::string& failure) {
+  PageRun run{result_, model, deck_name_, deck_, failure};
+  run.goes_on = goes_on;
   for (const Frame& frame : frames_) run.states.push_back({frame.report().stage, frame.report().increment});
   run.frame = [this](std::size_t state) { return frames_[state]; };
-  Page page = make_page({run});
+  return make_page({run});
+}
+
+void LivePage::write(const Model& model) {
+  const Clock::time_point begin = Clock::now();
+  Page page = page_of(model, true, {});
   const Unlisted unlisted;
   write_file(std::filesystem::path(result_).replace_extension(".html"), std::move(page.html));
   ++written_;

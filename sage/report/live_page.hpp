@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 
 #include "sage/record/output.hpp"
 #include "sage/report/page.hpp"
@@ -11,12 +12,16 @@ namespace sage::report {
 // Ends of stages and the latest output increment, in memory.  The page is written at an output increment when the last
 // one is `seconds` old and writing it took less than a tenth of that time.  It is no result yet: neither lists of
 // results nor checkpoints know it, and the page of the finished run takes its place.
+// With kAtTheEnd it is that of the finished run, and is written once.
 class LivePage final : public Observer {
  public:
+  static constexpr double kAtTheEnd = std::numeric_limits<double>::infinity();
+
   // result: STEM.h5 of the run; the page is STEM.html beside it.  seconds < 0: at every output increment.
   LivePage(std::filesystem::path result, std::string deck_name, std::string deck, double seconds = 2.0);
 
   void on_increment(const Model&, const StepReport&, const Solution&) override;
+  void on_finish(const Model&, const RunResult&) override;
   bool wants_states(const Model& model, const StepReport& report) const override {
     return is_output_increment(stage_of(model, report.stage), report);
   }
@@ -30,6 +35,7 @@ class LivePage final : public Observer {
 
   bool due() const;
   void write(const Model& model);
+  Page page_of(const Model& model, bool goes_on, const std::string& failure);
 
   std::filesystem::path result_;
   std::string deck_name_, deck_;

@@ -205,7 +205,8 @@ Model Sweep::build(std::size_t index) const {
   return one.build();
 }
 
-CaseOutcome Sweep::compute(std::size_t index, const Model& model, const RunSettings& settings) const {
+CaseOutcome Sweep::compute(std::size_t index, const Model& model, const RunSettings& settings,
+                           std::span<const std::unique_ptr<Observer>> more) const {
   const auto of = [&](Quantity::Source source) {
     return std::ranges::any_of(quantities_, [&](const Quantity& q) { return q.source == source; });
   };
@@ -213,10 +214,12 @@ CaseOutcome Sweep::compute(std::size_t index, const Model& model, const RunSetti
   Reports reports;
   WarningCodes warnings;
   RunResult result;
-  if (of(Quantity::Source::report) || of(Quantity::Source::run)) {
-    Observer* const observers[] = {&reports, &warnings};
+  const bool counts = of(Quantity::Source::report) || of(Quantity::Source::run);
+  if (counts || !more.empty()) {
+    std::vector<Observer*> observers{&reports, &warnings};
+    for (const std::unique_ptr<Observer>& one : more) observers.push_back(one.get());
     result = sage::run(model, *catalogue_, settings, observers);
-    if (result.status != RunStatus::completed)
+    if (counts && result.status != RunStatus::completed)
       return failed(status_of(result.status), first_line(result.reason), quantities_.size());
   }
   safety::Safety found;
@@ -279,21 +282,24 @@ void Sweep::Work::take(std::size_t index) {
     for (const std::uint64_t part : {fingerprint(model), sweep_.options_key_, options_.program})
       sum.add({reinterpret_cast<const char*>(&part), sizeof part});
     row.key = sum.value();
-    if (journal_.find(row.key) != nullptr) return;
     {
       const std::lock_guard<std::mutex> held(lock_);
       if (!begun_.try_emplace(row.key, index).second) return;
     }
+    std::vector<std::unique_ptr<Observer>> more;
+    if (options_.observers) more = options_.observers(index, row.key);
+    const bool is_kept = journal_.find(row.key) != nullptr;
+    if (is_kept && more.empty()) return;
     CaseOutcome outcome;
     try {
-      outcome = sweep_.compute(index, model, settings_);
+      outcome = sweep_.compute(index, model, settings_, more);
     } catch (const OutputError&) {
       throw;
     } catch (const std::exception& error) {
       outcome = failed("failed", message_of(error), count);
     }
     if (outcome.status == "stopped") return;
-    journal_.add(row.key, outcome);
+    if (!is_kept) journal_.add(row.key, outcome);
     ++ran_;
   } catch (const InputError& error) {
     row.outcome = failed("input", words(error.diagnostics().list().front()), count);

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,9 @@ struct SweepOptions {
   std::uint64_t program = 0;  // tells programs apart: their outcomes are not mixed
   StopAsked stop_asked{};     // ends it early
   std::function<int(int, bool)> choose_solver{};
+  // What observes the run of a case (from 0) besides; called from the threads of the cases.  A case with observers is run
+  // though its outcome is kept.
+  std::function<std::vector<std::unique_ptr<Observer>>(std::size_t index, CaseKey key)> observers{};
   // From the calling thread, now and then.
   std::function<void(std::size_t done, std::size_t count)> progress{};
 };
@@ -56,7 +61,8 @@ class Sweep {
   void check_used(const std::string& name) const;
   void find_quantities();
   std::string new_warning(const Model& model) const;
-  CaseOutcome compute(std::size_t index, const Model& model, const RunSettings& settings) const;
+  CaseOutcome compute(std::size_t index, const Model& model, const RunSettings& settings,
+                      std::span<const std::unique_ptr<Observer>> more) const;
   Model build(std::size_t index) const;
 
   Study study_;

@@ -69,13 +69,23 @@ std::string probability_words(const FailureRow& row, const FailureRule& rule) {
 
 }  // namespace
 
-std::string csv_text(const Sweep& sweep, const SweepResult& result, int digits) {
+std::string case_words(const Study& study, std::size_t index) {
+  std::string text;
+  for (std::size_t i = 0; i < study.names.size(); ++i)
+    if (const std::string cell = value_cell(study.cases[index][i], 6); !cell.empty())
+      text += (text.empty() ? "" : ", ") + study.names[i] + " = " + cell;
+  return text;
+}
+
+std::string csv_text(const Sweep& sweep, const SweepResult& result, int digits,
+                     const std::function<std::string(CaseKey)>& page) {
   const Study& study = sweep.study();
   std::string text = "case";
   for (const std::string& name : study.names) text += ',' + quoted_cell(name);
   for (const Quantity& quantity : sweep.quantities()) text += ',' + quantity.name;
   if (study.failure) text += ",fails";
-  text += ",status,same_as,warnings,reason\n";
+  text += ",status,same_as,warnings,reason";
+  text += page ? ",page\n" : "\n";
   for (std::size_t index = 0; index < result.rows.size(); ++index) {
     const CaseRow& row = result.rows[index];
     text += std::to_string(index + 1);
@@ -89,7 +99,9 @@ std::string csv_text(const Sweep& sweep, const SweepResult& result, int digits) 
       text += std::isnan(value) ? "," : fails(*study.failure, value) ? ",1" : ",0";
     }
     text += ',' + row.outcome.status + ',' + (row.same == 0 ? "" : std::to_string(row.same)) + ',' +
-            row.outcome.warnings + ',' + quoted_cell(row.outcome.reason) + '\n';
+            row.outcome.warnings + ',' + quoted_cell(row.outcome.reason);
+    if (page) text += ',' + quoted_cell(page(row.key));
+    text += '\n';
   }
   return text;
 }

@@ -1,6 +1,7 @@
 // What comes of a sweep: one table in the order of the cases, one plot, and what they say on a screen.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,12 @@
 namespace sage::sweep {
 
 // case, the names, the quantities, fails (where there is a rule), status, same_as, warnings, reason.  The same bytes for
-// the same cases, whatever computed them and in which order.
-std::string csv_text(const Sweep& sweep, const SweepResult& result, int digits);
+// the same cases, whatever computed them and in which order.  page: the file of a case, a column behind the others.
+std::string csv_text(const Sweep& sweep, const SweepResult& result, int digits,
+                     const std::function<std::string(CaseKey)>& page = {});
+
+// The values of a case in words, "material.1.nu = 0.3, refine = 1".
+std::string case_words(const Study& study, std::size_t index);
 
 // Of the cases with an answer, for each combination of the values that are not drawn.
 struct FailureRow {

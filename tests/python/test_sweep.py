@@ -60,6 +60,25 @@ def test_finished_cases_are_kept(tmp_path):
     assert "4 computed, 0 kept" in sweep(file, tmp_path, "--collect", "report1.force.max").stdout  # other options
 
 
+def test_each_case_has_a_page_of_its_own(tmp_path):
+    """Though its outcome is kept, and never that of another study's case of the same number."""
+    file = study(tmp_path, TABLE)
+    sweep(file, tmp_path)
+    assert "page" not in rows_of(tmp_path)[0]
+    assert "3 computed, 0 kept" in sweep(file, tmp_path, "--report").stdout
+    pages = {row["material.1.nu"]: row["page"] for row in rows_of(tmp_path)}
+    assert len(set(pages.values())) == 3
+    for nu, page in pages.items():
+        assert f"material.1.nu = {float(nu):.6g}" in (tmp_path / page).read_text()
+        assert (tmp_path / page.replace(".html", ".report1.csv")).exists()
+    assert all(page in (tmp_path / "study.sweep.html").read_text() for page in pages.values())
+    assert "0 computed, 3 kept" in sweep(file, tmp_path, "--report").stdout
+    (tmp_path / pages["0.25"]).unlink()
+    study(tmp_path, TABLE.replace("[0.25, 0.33333333, 0.495]", "[0.495, 0.25]"))
+    assert "1 computed, 1 kept" in sweep(file, tmp_path, "--report").stdout
+    assert [row["page"] for row in rows_of(tmp_path)] == [pages["0.495"], pages["0.25"]]
+
+
 def test_same_bytes_for_any_number_of_workers_and_after_kills(tmp_path):
     text = ('collect = ["report1.ratio", "report1.force.max"]\n[grid]\n'
             '"material.1.nu" = {from = 0.1, to = 0.49, count = 60}\n"material.1.E" = [1000, 3000, 9000]\n')
