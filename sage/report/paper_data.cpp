@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostDeck = 1000000, kMostPicture = 400000, kMostPictures = 1500000, kMostRows = 20000;
+constexpr std::size_t kMostDeck = 1000000, kMostPicture = 400000, kMostPictures = 1500000, kMostRows = 20000,
+                      kMostAnswer = 20000;
 
 // Files STEM.*ending and STEM_*ending beside the result file, by name.
 std::vector<fs::path> beside(const fs::path& result, const std::string& ending) {
@@ -179,6 +180,21 @@ Json summary_json(const PageRun& run) {
   return rows;
 }
 
+// What sagefe safety and sagefe bounds have said beside the run, as on the screen; pages of failed attempts follow a blank
+// line.
+Json answers_json(const PageRun& run) {
+  Json answers = Json::array();
+  for (const char* name : {"safety", "bounds"}) {
+    const fs::path listing = fs::path(run.file).replace_extension(std::string(".") + name + ".lst");
+    std::error_code error;
+    if (!fs::is_regular_file(listing, error)) continue;
+    std::string text = file_text(listing);
+    text.resize(std::min({text.find("\n\n"), text.size(), kMostAnswer}));
+    answers.push_back({{"name", name}, {"text", clean(text)}});
+  }
+  return answers;
+}
+
 // The deck, or where it is long the lines around those that messages name.
 Json deck_json(const PageRun& run, std::vector<std::string>& omitted) {
   const std::string& deck = run.deck;
@@ -211,6 +227,7 @@ std::vector<std::string> add_papers(const PageRun& run, Json& json) {
   json["summary"] = summary_json(run);
   json["tables"] = tables_json(run, omitted);
   json["pictures"] = pictures_json(run, omitted);
+  json["answers"] = answers_json(run);
   json["messages"] = messages_json(run);
   json["left_out"] = Json::array();
   for (const std::string& part : run.model.left_out) json["left_out"].push_back(clean(part));

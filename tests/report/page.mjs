@@ -27,6 +27,8 @@ sagefe("run", deck("structures/braced_cut"), "-q", "--report", "--points", "--no
 sagefe("run", deck("chapter7/dp_285"), "-q", "--report", "--points", "--states", "1:50");
 fs.copyFileSync(deck("chapter7/dp_285"), path.join(work, "b_bar.dat"));
 sagefe("run", "b_bar.dat", "-q", "--result", "--formulation", "2");
+fs.mkdirSync(path.join(work, "out"), {recursive: true});
+fs.writeFileSync(path.join(work, "out", "script.safety.lst"), `${title}\nsafety factor between 1.5 and 1.6\n\nF = 1.6`);
 sagefe("run", "script.dat", "-q", "--report");
 sagefe("run", path.join(source, "legacy_inputs/models/embankment_on_clay.sage.toml"), "-q", "--report");
 fs.writeFileSync(path.join(work, "out", "study.sweep.csv"), `# ${title}\ncase,nu[-],ratio[-],status,reason\n1,0.2,1.5,ok,\n2,0.3,1.25,ok,${title.replace(/[",]/g, "")}\n3,0.4,,failed,p2.html\n`);
@@ -216,6 +218,7 @@ async function names_stay_text() {
   const page = await open("script.html");
   assert.equal(await page.evaluate(() => window.hacked), undefined);
   assert.equal((await page.locator("h1").textContent()).slice(0, 60), title.slice(0, 60));
+  assert.equal(await page.locator("#answers pre").textContent(), `${title}\nsafety factor between 1.5 and 1.6`);
   await page.close();
 }
 

@@ -29,7 +29,8 @@ class Page {
     for (const view of this.views.slice(1)) if (this.settings.linked) view.camera = this.views[0].camera;
     this.settings.scale = this.usual_scale();
     const sections = [["summary", "Summary", this.summary()], ["views", "Mesh and fields", this.view_section()], ["curves", "Curves", this.curve_section()],
-                      ["structures", "Structures", this.structure_section()], ["pictures", "Pictures", this.picture_section()],
+                      ["structures", "Structures", this.structure_section()], ["answers", "Safety and bounds", this.answer_section()],
+                      ["pictures", "Pictures", this.picture_section()],
                       ["model", "Model", this.model_section()], ["messages", "Messages", this.message_section()], ["deck", "Deck", this.deck_section()]]
                          .filter(([, , content]) => content);
     const alike = this.all.some((run, i) => this.all.findIndex((other) => other.title === run.title) !== i);
@@ -178,6 +179,10 @@ class Page {
     return {at: (e, end) => at[e][end - 1]};
   }
 
+  answer_section() {
+    if (!this.runs.some((run) => run.json.answers.length)) return null;
+    return this.per_run((run) => h("div", {}, run.json.answers.flatMap((a) => [h("h3", {}, `sagefe ${a.name}`), h("pre", {class: "answer"}, a.text)])));
+  }
   picture_section() {
     if (!this.runs.some((run) => run.json.pictures.length)) return null;
     return this.per_run((run) => h("div", {class: "pictures"}, run.json.pictures.map((p) => h("figure", {class: "picture"}, h("img", {src: run.picture_url(p), alt: p.name}), h("figcaption", {}, p.name)))));
