@@ -186,9 +186,8 @@ Json answers_json(const PageRun& run) {
   Json answers = Json::array();
   for (const char* name : {"safety", "bounds"}) {
     const fs::path listing = fs::path(run.file).replace_extension(std::string(".") + name + ".lst");
-    std::error_code error;
-    if (!fs::is_regular_file(listing, error)) continue;
-    std::string text = file_text(listing);
+    std::string text = read_file_if_any(listing).value_or("");
+    if (text.empty()) continue;
     text.resize(std::min({text.find("\n\n"), text.size(), kMostAnswer}));
     answers.push_back({{"name", name}, {"text", clean(text)}});
   }
