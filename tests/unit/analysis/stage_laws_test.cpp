@@ -389,5 +389,70 @@ TEST(StageLaws, CardsThatDoNotFitAreRejected) {
   EXPECT_EQ(first_error(loose), "S613");
 }
 
+// An upright strip at x = 2, 4 high, on a joint whose node is clamped; 3 per width push its top.  EI = 1000, joint 400 per
+// radian: u = P L^3 / 3 EI + P L^2 / k, M = P L.
+std::string strip_on_a_joint(bool ring, const std::string& joint) {
+  const double measure = ring ? 2.0 * std::numbers::pi * 2.0 : 1.0;
+  return head(ring) +
+         "node = [{x = 2.0, y = 0.0}, {x = 2.0, y = 4.0}]\n"
+         "element = [{group = \"strip\", nodes = [1, 2]}, {group = \"joint\", nodes = [1, 1]}]\n"
+         "fixity = [{first = 1, x = \"fixed\", y = \"fixed\"}, {first = 1, x = \"fixed\", unknown = "
+         "\"rotation\"}]\n" +
+         kUnits +
+         "[[material]]\nname = \"strip\"\nlaw = \"section_elastic\"\naxial_stiffness = 1e5\n"
+         "bending_stiffness = 1000.0\nshear_stiffness = 1e9\n" +
+         "[[material]]\nname = \"joint\"\n" + joint +
+         "[[group]]\nname = \"strip\"\nelement = \"beam2_hinged\"\nmaterial = \"strip\"\n"
+         "[[group]]\nname = \"joint\"\nelement = \"hinge_spring1\"\nmaterial = \"joint\"\n" +
+         fmt::format("[[stage]]\ntitle = \"push\"\nload = [{{first = 2, x_force = {}}}]\n", 3.0 * measure);
+}
+
+TEST(HingeSpring, TurnsWithItsStiffness) {
+  for (const bool ring : {false, true}) {
+    const WholeRun run = run_model(strip_on_a_joint(ring, "law = \"axial_elastic\"\nstiffness = 400.0\n"));
+    ASSERT_TRUE(run.completed()) << run.failure;
+    EXPECT_NEAR(run.u(2).x(), 3.0 * 64.0 / 3000.0 + 3.0 * 16.0 / 400.0, 1e-7);
+    EXPECT_NEAR(std::abs(run.stress[1](0, 0)), 12.0, 1e-9);
+    EXPECT_NEAR(std::abs(run.stress[0](3, 0)), 12.0, 1e-9);
+    EXPECT_NEAR(run.stress[1](0, 0), run.stress[0](3, 0), 1e-9);  // the beam's own sign
+  }
+  expect_restarts(strip_on_a_joint(false, "law = \"axial_elastic\"\nstiffness = 400.0\n"));
+}
+
+// One joint of 1000 every 2.5 m is the same.
+TEST(HingeSpring, CountsItsSpacing) {
+  const WholeRun run =
+      run_model(strip_on_a_joint(false, "law = \"axial_elastic\"\nstiffness = 1000.0\nspacing = 2.5\n"));
+  ASSERT_TRUE(run.completed()) << run.failure;
+  EXPECT_NEAR(run.u(2).x(), 3.0 * 64.0 / 3000.0 + 3.0 * 16.0 / 400.0, 1e-7);
+}
+
+// A beam of 4 clamped by a joint that yields at 5, on a roller at its end, P = 10 at its middle: elastic it would have
+// 3 P L / 16 = 7.5 at the clamp; it has 5, P L / 4 - 5 / 2 = 7.5 at the middle, and P / 2 - 5 / 4 on the roller.
+TEST(HingeSpring, YieldsAtItsStrength) {
+  const std::string text =
+      head(false) +
+      "node = [{x = 0.0, y = 0.0}, {x = 2.0, y = 0.0}, {x = 4.0, y = 0.0}]\n"
+      "element = [{group = \"first\", nodes = [1, 2]}, {group = \"second\", nodes = [2, 3]}, "
+      "{group = \"joint\", nodes = [1, 1]}]\n"
+      "fixity = [{first = 1, x = \"fixed\", y = \"fixed\"}, {first = 1, x = \"fixed\", unknown = "
+      "\"rotation\"}, "
+      "{first = 3, y = \"fixed\"}]\n" +
+      kUnits +
+      "[[material]]\nname = \"beam\"\nlaw = \"section_elastic\"\naxial_stiffness = 1e5\n"
+      "bending_stiffness = 1000.0\nshear_stiffness = 1e9\n"
+      "[[material]]\nname = \"joint\"\nlaw = \"axial_plastic\"\nstiffness = 1e6\ntension = 5.0\n"
+      "compression = 5.0\n"
+      "[[group]]\nname = \"first\"\nelement = \"beam2_hinged\"\nmaterial = \"beam\"\n"
+      "[[group]]\nname = \"second\"\nelement = \"beam2\"\nmaterial = \"beam\"\n"
+      "[[group]]\nname = \"joint\"\nelement = \"hinge_spring1\"\nmaterial = \"joint\"\n"
+      "[[stage]]\ntitle = \"load\"\nincrements = 4\nload = [{first = 2, y_force = -10.0}]\n";
+  const WholeRun run = run_model(text);
+  ASSERT_TRUE(run.completed()) << run.failure;
+  EXPECT_NEAR(std::abs(run.stress[2](0, 0)), 5.0, 1e-9);
+  EXPECT_NEAR(std::abs(run.stress[0](3, 2)), 7.5, 1e-7);
+  EXPECT_NEAR(run.reaction(3).y(), 5.0 - 1.25, 1e-9);
+}
+
 }  // namespace
 }  // namespace sage::test
