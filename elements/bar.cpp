@@ -78,19 +78,6 @@ void Spring<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> ou
   std::copy(all.begin(), all.end(), out.begin());
 }
 
-template <class Kinematics>
-void HingeSpring<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out) const {
-  if (!x.allFinite()) throw ElementShapeError("hinge spring: a coordinate is not a number");
-  const double w = Kinematics::measure(x(0, 0));
-  if (!(w > 0.0))
-    throw ElementShapeError("hinge spring: its node has the radius " + std::to_string(x(0, 0)) +
-                            "; a joint needs one above 0");
-  const std::array<double, 5> all{w, 0.0, 0.0, 1.0, -1.0};
-  std::copy(all.begin(), all.end(), out.begin());
-}
-
-template class HingeSpring<PlaneStrain>;
-template class HingeSpring<Axisymmetric>;
 template class Spring<PlaneStrain>;
 template class Spring<Axisymmetric>;
 

@@ -78,25 +78,4 @@ class Ring final : public PointElement<1, 2, 1> {
   }
 };
 
-// A spring between the rotation of a hinge and that of its node: the moment M = k (theta_hinge - theta_node), with the law's
-// stiffness as a moment for each radian.  Dofs: u v theta_hinge theta_node; of a beam that begins at the hinge M has the sign of
-// its bending moment.
-template <class Kinematics>
-class HingeSpring final : public PointElement<1, 4, 1> {
- public:
-  explicit HingeSpring(std::string_view name)
-      : PointElement({.name = name,
-                      .geometry = Kinematics::geometry,
-                      .nodes = 1,
-                      .dofs = 4,
-                      .points = 1,
-                      .law_size = 1}) {}
-  void geometry(const NodeCoordinates& x, std::span<double> out) const override;
-  Vector2 position(const NodeCoordinates& x, int /*point*/) const override { return x.col(0); }
-  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override {
-    static constexpr std::array<double, 1> same{1.0};
-    return same;
-  }
-};
-
 }  // namespace sage

@@ -44,7 +44,6 @@ ElementEntry bar2_entry();
 ElementEntry bar3_entry();
 ElementEntry spring2_entry();
 ElementEntry ring1_entry();
-ElementEntry hinge_spring1_entry();
 ElementEntry beam2_entry();
 ElementEntry beam3_entry();
 ElementEntry beam2_hinged_entry();

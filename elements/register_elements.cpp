@@ -65,7 +65,6 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(54, beam3_axial_release_entry());
   catalogue.elements.add(55, beam2_shear_release_entry());
   catalogue.elements.add(56, beam3_shear_release_entry());
-  catalogue.elements.add(57, hinge_spring1_entry());
 }
 
 }  // namespace sage

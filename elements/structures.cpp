@@ -161,19 +161,6 @@ ElementEntry ring1_entry() {
                                            }}});
 }
 
-// Of what meets at a node: a beam's hinge there, and the node.
-ElementEntry hinge_spring1_entry() {
-  ElementEntry entry = line_entry(
-      {.name = "hinge_spring1", .summary = "spring between a beam's hinge and the rotation of its node"}, 2, 1);
-  entry.nodes = entry.card_nodes = entry.corners = 1;
-  entry.parent_nodes = {{0.0, 0.0}};
-  entry.vtk = {1, {}};
-  entry.unknowns = {{displacement_field()}, {rotation("hinge_rotation")}, {rotation("rotation")}};
-  return element_entry(
-      std::move(entry),
-      {in_both<HingeSpring>({1, "one point", "the stiffness is a moment per radian"}, "hinge_spring1", 1)});
-}
-
 ElementEntry beam2_entry() {
   return element_entry(beam({.name = "beam2", .summary = kBeamSummary}, 2), {beam2_choice("beam2")});
 }

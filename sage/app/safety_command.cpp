@@ -69,7 +69,7 @@ void report(const SafetyOptions& options, const Diagnostics& found) {
 
 // What the factor has to reach under the partial factors of the options.
 std::string requirement(const SafetyOptions& options, const Safety& found) {
-  if (options.input.build.factors.empty() || options.search.seismic) return {};
+  if (options.input.build.factors.empty()) return {};
   const PartialFactors& set = options.input.build.factors.front();
   const double required = set.required();
   const char* const verdict = found.lower && *found.lower >= required   ? "fulfilled"
@@ -198,12 +198,17 @@ Json safety_json(const SafetyOptions& options, const Meshes& meshes) {
                      {"lower", number(mesh.found.lower)},
                      {"upper", number(mesh.found.upper)},
                      {"options", mesh.options}});
-  Json json = {{"deck", json_text(options.deck)},     {"quantity", options.search.seismic ? "k_h" : "factor"},
-               {"lower", number(found.lower)},        {"upper", number(found.upper)},
-               {"complete", found.complete()},        {"incomplete", json_text(found.incomplete)},
-               {"divided", json_list(found.reduced)}, {"not_divided", json_list(found.untouched)},
-               {"reduce", std::move(reduce)},         {"fails", std::move(fails)},
-               {"trials", std::move(trials)},         {"meshes", std::move(table)}};
+  Json json = {{"deck", json_text(options.deck)},
+               {"lower", number(found.lower)},
+               {"upper", number(found.upper)},
+               {"complete", found.complete()},
+               {"incomplete", json_text(found.incomplete)},
+               {"divided", json_list(found.reduced)},
+               {"not_divided", json_list(found.untouched)},
+               {"reduce", std::move(reduce)},
+               {"fails", std::move(fails)},
+               {"trials", std::move(trials)},
+               {"meshes", std::move(table)}};
   if (!options.input.build.factors.empty()) json["required"] = options.input.build.factors.front().required();
   return json;
 }
@@ -222,8 +227,8 @@ std::vector<std::filesystem::path> write_files(const SafetyOptions& options, con
     if (!trial.page.empty()) listing += fmt::format("\nF = {:.6g}: {}", trial.factor, trial.page);
   write(".safety.lst", listing);
   write(".safety.csv", safety::to_csv(*mesh.model, mesh.found, options.digits));
-  write(".safety.svg", safety::curve_svg(*mesh.model, options.search, mesh.found));
-  write(".mechanism.svg", safety::mechanism_svg(*mesh.model, options.search, mesh.found));
+  write(".safety.svg", safety::curve_svg(*mesh.model, mesh.found));
+  write(".mechanism.svg", safety::mechanism_svg(*mesh.model, mesh.found));
   return files;
 }
 
@@ -322,24 +327,6 @@ std::vector<ModelPart> parts_in(const std::string& list) {
   return parts;
 }
 
-void add_seismic_options(CLI::App& parser, SafetyOptions& o) {
-  const auto seismic = [&o]() -> safety::SeismicSearch& {
-    return o.search.seismic ? *o.search.seismic : o.search.seismic.emplace();
-  };
-  CLI::Option* const critical = parser.add_option_function<std::string>(
-      "--critical-kh", [seismic](const std::string& way) { seismic().direction = way == "left" ? -1.0 : 1.0; },
-      "in place of a factor: the largest k_h, a share of the weight that pushes all ground to the right (+x) "
-      "or "
-      "to the left; strengths stay as they are");
-  critical->check(CLI::IsMember({"right", "left"}));
-  parser
-      .add_option_function<double>(
-          "--kv-ratio", [seismic](double ratio) { seismic().vertical = ratio; },
-          "of --critical-kh: k_v over k_h, positive upwards (default 0)")
-      ->needs(critical)
-      ->check(number_in(-2.0, 2.0, "a ratio from -2 to 2"));
-}
-
 void add_choice_options(CLI::App& parser, SafetyOptions& o) {
   static const std::map<std::string, DilationRule> rules = [] {
     std::map<std::string, DilationRule> names;
@@ -382,8 +369,6 @@ constexpr const char* kSafetyExamples =
     "  sagefe safety slope.dat\n"
     "      both ends of a bracket of 0.005 for the factor, the reason for each, curve and mechanism\n"
     "  sagefe safety wall.dat --stage 3 --reduce soil,joints --tolerance .005\n"
-    "  sagefe safety slope.dat --critical-kh right --kv-ratio 0.5\n"
-    "      the horizontal share of the weight, to the right, under which the slope fails\n"
     "  sagefe safety slope.dat --converge .01\n"
     "      refine the mesh until the factor changes by less than 1 %";
 
@@ -395,7 +380,6 @@ Command safety_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("DECK", o->deck, "deck to be analysed")->required();
   add_search_options(parser, *o);
   add_choice_options(parser, *o);
-  add_seismic_options(parser, *o);
   parser
       .add_option("--converge", o->converge,
                   "refine the mesh until the factor changes by less than this share, e.g. 0.01")
@@ -412,10 +396,7 @@ Command safety_command(CLI::App& parser, const Catalogue& catalogue) {
                   "print where time and floating-point operations went, over all trials of the last mesh");
   add_input_options(parser, o->input);
   add_build_options(parser, o->input.build, catalogue);
-  return [o, &catalogue] {
-    if (o->search.seismic) o->search.limits = safety::seismic_limits(o->search.limits.tolerance);
-    return run_safety(*o, catalogue);
-  };
+  return [o, &catalogue] { return run_safety(*o, catalogue); };
 }
 
 }  // namespace sage::app

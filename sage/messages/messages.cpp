@@ -1160,15 +1160,6 @@ constexpr MessageEntry kMessages[] = {
      "No run has a field of this name at nodes or integration points. Or the page itself derives the field "
      "from the stress (mean, deviator, principal stresses).",
      "Use a name of the list in the message. stress, strain and displacement have all their components."},
-    {"S625", "the critical k_h can't be searched so",
-     "The search adds a horizontal share of the weight behind the last stage and needs a state that stands "
-     "without it.",
-     "Leave out the option that the message names, or find the factor of safety of the stages first."},
-    {"S628", "a mesh of another program does not fit the model file",
-     "With [mesh] file every surface of the mesh is an area of the same name, and every line of the model file "
-     "a named "
-     "curve, or a set of nodes on outlines. The elements have the corners of the element of [mesh].",
-     "Give the surfaces and curves names in the mesher (physical groups, sets), and use these names."},
     {"S630", "the checkpoint does not fit",
      "The checkpoint belongs to another deck, other options, other outputs or another build, or files that it "
      "continues have changed since. To continue would mix two runs.",

@@ -2,13 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
-#include <set>
 
-#include "sage/deck/source.hpp"
 #include "sage/messages/near_names.hpp"
-#include "sage/model_file/mesh_of_file.hpp"
 
 namespace sage::model_file {
 
@@ -59,7 +55,6 @@ void Drawing::read_mesh(const toml::table& root) {
     if (field.name == "element") element_code_ = field.number;
     if (field.name == "formulation") formulation_ = field.number;
   }
-  if (const toml::node* file = mesh_at_->get("file")) mesh_file_ = values_.text(*file, "file");
   section_.size = real_of(values_, *mesh_at_, "size", values_.units.length);
   settings_.growth = real_of(values_, *mesh_at_, "growth", {}, settings_.growth);
   settings_.mesher = static_cast<Mesher>(code_of(values_, *mesh_at_, "mesher", "mesh"));
@@ -212,7 +207,7 @@ void Drawing::read_areas(const toml::table& root) {
     values_.know_keys(*one, table("area"));
     SectionArea area;
     for (const char* key : {"name", "outline", "material"})
-      if (!one->contains(key) && (key[0] != 'o' || mesh_file_.empty()))
+      if (!one->contains(key))
         values_.error("S155", values_.where(*one), "an area needs its " + std::string(key));
     if (const toml::node* name = one->get("name")) area.name = values_.text(*name, "name");
     if (const toml::node* outline = one->get("outline")) area.outline = read_outline(*outline);
@@ -221,7 +216,6 @@ void Drawing::read_areas(const toml::table& root) {
         for (const toml::node& hole : *list) area.holes.push_back(read_outline(hole));
     area.size = real_of(values_, *one, "size", values_.units.length);
     area_material_.push_back(material_of(values_, *one, "material"));
-    second_material_.push_back(material_of(values_, *one, "second_material"));
     section_.areas.push_back(area);
     areas_.push_back(one);
   }
@@ -234,26 +228,15 @@ SourcePosition Drawing::place_of(SectionItem item, int index) const {
   return values_.where(*mesh_at_);
 }
 
-// Of [mesh] file, seen from the folder of the model file.
-GivenMesh Drawing::given_mesh() {
-  const std::filesystem::path path = std::filesystem::path(values_.file()).parent_path() / mesh_file_;
-  const ForeignMesh mesh = sage::read_mesh(read_file(path.string()), mesh_file_, values_.catalogue.elements);
-  for (const Diagnostic& one : mesh.diagnostics.list()) values_.problems.add(one);
-  return take_mesh(mesh, section_);
-}
-
 // False after an error.
 bool Drawing::mesh_it() {
   if (values_.problems.errors() > 0) return false;
   try {
-    mesh_ = mesh_file_.empty() ? mesh_section(section_, settings_) : mesh_section(section_, given_mesh());
+    mesh_ = mesh_section(section_, settings_);
     meshed_ = true;
   } catch (const SectionError& error) {
     for (const SectionFault& fault : error.faults())
       values_.error(fault.code, place_of(fault.item, fault.index), fault.message);
-  } catch (const InputError& error) {
-    for (const Diagnostic& one : error.diagnostics().list())
-      values_.error(one.code, values_.where(*mesh_at_->get("file")), mesh_file_ + ": " + one.message);
   }
   for (const Tie& tie : mesh_.ties) {
     if (tie.kind != Tie::Kind::end) continue;
@@ -273,14 +256,13 @@ void Drawing::add_node(int node, const SourcePosition& where) {
 }
 
 int Drawing::add_group(const std::string& name, const std::string& of, double element, int formulation,
-                       int material, const SourcePosition& where, int second_material) {
+                       int material, const SourcePosition& where) {
   ++group_;
   std::vector<NewField> card{{"number", static_cast<double>(group_), {}, {}},
                              {"element", element, {}, {}},
                              {"formulation", static_cast<double>(formulation), {}, {}},
                              {"material", static_cast<double>(material), {}, {}}};
   if (!name.empty()) card.push_back({"name", 0.0, {}, name});
-  if (second_material != 0) card.push_back({"second_material", static_cast<double>(second_material), {}, {}});
   out_.add("group", where, card);
   values_.groups.by_name.try_emplace(name, group_);
   values_.groups.drawn[of].push_back(group_);
@@ -300,8 +282,8 @@ void Drawing::add_areas() {
   for (std::size_t a = 0; a < mesh_.areas.size(); ++a) {
     const SourcePosition where = values_.where(*areas_[a]);
     const std::string& name = section_.areas[a].name;
-    const int group = add_group(name, name, element_code_, static_cast<int>(formulation_), area_material_[a],
-                                where, second_material_[a]);
+    const int group =
+        add_group(name, name, element_code_, static_cast<int>(formulation_), area_material_[a], where);
     area_group_.push_back(group);
     first_element_.push_back(element_ + 1);
     const std::vector<int>& nodes = mesh_.areas[a].nodes;
@@ -451,74 +433,16 @@ void Drawing::add_bars(const toml::table& root) {
   }
 }
 
-// Of groups that a mistake of the drawing keeps from being made: who names them has made none.
-void Drawing::keep_names(const toml::table& root) {
-  const auto keep = [&](const std::string& name) { values_.groups.by_name.try_emplace(name, 1); };
-  for (const SectionArea& area : section_.areas) keep(area.name);
-  for (const SectionLine& line : section_.lines) keep(line.name);
-  for (const toml::table* bar : values_.entries(root, "bar"))
-    if (const toml::node* name = bar->get("name")) keep(name->value_or(std::string()));
-}
-
 void Drawing::add(const toml::table& root) {
   read_mesh(root);
   read_points(root);
   read_lines(root);
   read_areas(root);
-  if (entry_ == nullptr || mesh_at_ == nullptr || !mesh_it()) return keep_names(root);
+  if (entry_ == nullptr || mesh_at_ == nullptr || !mesh_it()) return;
   for (std::size_t i = 0; i < mesh_.x.size(); ++i) add_node(static_cast<int>(i), values_.where(*mesh_at_));
   add_areas();
   add_lines();
   add_bars(root);
-}
-
-// Far stiffer than any element, and not so stiff that digits are lost.
-double Drawing::support_stiffness() const {
-  constexpr double kStiffer = 1e7;
-  double largest = 0.0;
-  for (const auto& [number, values] : values_.parameters)
-    if (const auto E = values.find("youngs_modulus"); E != values.end()) largest = std::max(largest, E->second);
-  return kStiffer * largest;
-}
-
-// A spring across the line from each of its nodes to a node that is held.  Between neighbours the line goes as its nodes do.
-void Drawing::hold_across(const toml::node& node, const SourcePosition& where) {
-  const int found = find_line(node);
-  if (found < 0 || !meshed_) return;
-  const double stiffness = support_stiffness();
-  if (!(stiffness > 0.0)) {
-    values_.error("S155", where,
-                  "a support across a line needs a material with youngs_modulus, which its springs exceed");
-    return;
-  }
-  const LineMesh& line = mesh_.lines[found];
-  const std::string name = "support of " + section_.lines[found].name;
-  const int owner =
-      out_.add("material", where,
-               {{"number", static_cast<double>(++material_), {}, {}},
-                {"law", static_cast<double>(values_.catalogue.materials.code_of("axial_elastic")), {}, {}},
-                {"name", 0.0, {}, name}});
-  out_.add("parameters", where, {{"values", stiffness, where, {}}}, owner);
-  const int group = add_group(name, name, values_.catalogue.elements.code_of("spring2"), 0, material_, where);
-  std::set<int> held;
-  for (const std::vector<int>* side : {&line.left, &line.right, &line.beam})
-    for (std::size_t i = 0; i < side->size(); ++i) {
-      const int own = (*side)[i];
-      if (own < 0 || !held.insert(own).second) continue;
-      const int before = i > 0 ? (*side)[i - 1] : -1, after = i + 1 < side->size() ? (*side)[i + 1] : -1;
-      const Vector2 along =
-          (mesh_.x[after >= 0 ? after : own] - mesh_.x[before >= 0 ? before : own]).normalized();
-      Vector2 out(along.y(), -along.x());
-      if (out.x() < 0.0) out = -out;  // away from an axis
-      const int far = static_cast<int>(mesh_.x.size());
-      mesh_.x.push_back(mesh_.x[own] + (mesh_.x[after >= 0 ? after : before] - mesh_.x[own]).norm() * out);
-      add_node(far, where);
-      out_.add("fixity", where,
-               {{"first", static_cast<double>(number_of(far)), {}, {}},
-                {"x_code", 1.0, {}, {}},
-                {"y_code", 1.0, {}, {}}});
-      add_element(group, {own, far}, where);
-    }
 }
 
 std::vector<int> Drawing::nodes_at(const toml::node& node) {

@@ -31,8 +31,6 @@ class Drawing {
   // Draws, meshes, and adds the cards.  Names of lines and areas become those of groups.
   void add(const toml::table& root);
 
-  // Holds the nodes along a line across it: along it they slide.
-  void hold_across(const toml::node& line, const SourcePosition& where);
   // Numbers of the nodes at a point or along a line, by name.  Empty, and an error, where there is none.
   std::vector<int> nodes_at(const toml::node& point);
   std::vector<int> nodes_along(const toml::node& line);
@@ -68,10 +66,7 @@ class Drawing {
   // Index of what has this name; -1, and an error, where there is none.
   int find_point(const toml::node& name);
   int find_line(const toml::node& name);
-  GivenMesh given_mesh();
   bool mesh_it();
-  void keep_names(const toml::table& root);
-  double support_stiffness() const;
   void add_node(int node, const SourcePosition& where);
   void add_areas();
   void add_lines();
@@ -81,7 +76,7 @@ class Drawing {
   int interface_material(const Line& line, int area);
   // A group's card and its elements' cards, `size` nodes each.
   int add_group(const std::string& name, const std::string& of, double element, int formulation, int material,
-                const SourcePosition& where, int second_material = 0);
+                const SourcePosition& where);
   void add_element(int group, const std::vector<int>& nodes, const SourcePosition& where);
   int number_of(int node) const { return node_ + 1 + node; }
   SourcePosition place_of(SectionItem item, int index) const;
@@ -92,15 +87,14 @@ class Drawing {
   Section section_;
   MeshSettings settings_;
   SectionMesh mesh_;
-  std::string mesh_file_;  // of another program, in place of the drawing's own mesh
   bool meshed_ = false;
   double element_code_ = 0.0, formulation_ = 0.0;
   const ElementEntry* entry_ = nullptr;
   std::map<std::string, int> points_, line_index_;
   std::vector<Line> lines_;
   std::vector<const toml::table*> areas_;
-  std::vector<int> area_material_, second_material_, area_group_, first_element_;  // by area
-  std::map<std::string, std::vector<int>> joints_beside_;                          // groups by name of the area
+  std::vector<int> area_material_, area_group_, first_element_;  // by area
+  std::map<std::string, std::vector<int>> joints_beside_;        // groups by name of the area
   std::map<std::pair<std::string, int>, int>
       joint_materials_;  // made by a factor, by line and material of the ground
   const toml::table* mesh_at_ = nullptr;

@@ -32,7 +32,6 @@ const std::vector<Change>& changes() {
       {"group", "element", Want::element},
       {"group", "formulation", Want::formulation},
       {"group", "material", Want::material},
-      {"group", "second_material", Want::material},
       {"group", "overlay", Want::flag},
       {"element", "group", Want::group},
       {"element", "n1", Want::nodes, "nodes"},
@@ -162,9 +161,6 @@ std::vector<Table> drawn_tables() {
   mesh.keys = {
       {"element", "element", Want::element, true, {}, "element of all areas", {}, {}, {}},
       {"formulation", "formulation", Want::formulation, false, {}, "its formulation", {}, {}, {}},
-      drawn(
-          "file", Want::text,
-          "a mesh (.msh, .inp) in place of one by sizes: its named surfaces are areas, its named curves lines"),
       drawn("size", Want::real, "length of edges where nothing else is wished", "length"),
       drawn("growth", Want::real, "by which sizes grow with the distance from where a small one is wished"),
       drawn("mesher", Want::code, "mesher", {}, {{0, "automatic"}, {1, "gmsh"}, {2, "blocks"}})};
@@ -195,12 +191,9 @@ std::vector<Table> drawn_tables() {
             "of the layer whose stiffness the joint has; left out, a tenth of the size", "length")};
   Table area{"area", "", "Ground of one material; it becomes a group of its name.", true, {}};
   area.keys = {
-      drawn("name", Want::text, "name"),
-      drawn("outline", Want::points, "points around it, or names of lines"),
+      drawn("name", Want::text, "name"), drawn("outline", Want::points, "points around it, or names of lines"),
       drawn("holes", Want::outlines, "outlines of holes"),
-      drawn("size", Want::real, "longest edge in it", "length"),
-      drawn("material", Want::material, "material"),
-      drawn("second_material", Want::material, "material of the second law, of elements that have two")};
+      drawn("size", Want::real, "longest edge in it", "length"), drawn("material", Want::material, "material")};
   Table bar{"bar", "", "An anchor, strut or spring from point to point.", true, {}};
   bar.keys = {drawn("name", Want::text, "name"),
               drawn("from", Want::point, "its first point"),
@@ -218,12 +211,6 @@ void add_places(std::vector<Table>& list) {
       one.keys.push_back(drawn("line", Want::text, "in place of first and last: all nodes along a line"));
     if (fixity || report || load)
       one.keys.push_back(drawn("point", Want::text, "in place of first and last: a point"));
-    if (one.key == "fixity")
-      one.keys.push_back(
-          drawn("normal", Want::code,
-                "with a line, in place of x and y: fixed holds its nodes across the line, by springs; along "
-                "it they slide",
-                {}, {{0, "free"}, {1, "fixed"}}));
     if (one.card != "pressure") continue;
     one.keys.push_back(
         drawn("line", Want::text, "in place of element and edge: a line, from its first point to its last"));

@@ -197,14 +197,6 @@ bool Reader::add_at_place(const toml::table& one, const Table& cards, int owner)
   if (point == nullptr && line == nullptr) return false;
   const toml::node& place = point != nullptr ? *point : *line;
   if (!is_drawn(place)) return true;
-  if (const toml::node* across = one.get("normal"); across != nullptr && cards.find("normal") != nullptr) {
-    const double code = values_.code(*across, "normal", cards.find("normal")->codes);
-    if (line == nullptr || one.contains("x") || one.contains("y") || one.contains("unknown"))
-      values_.error("S155", values_.where(*across), "normal goes with a line, without x, y and unknown");
-    else if (code != 0.0)
-      drawing_->hold_across(place, values_.where(one));
-    return true;
-  }
   const std::vector<int> nodes = point != nullptr ? drawing_->nodes_at(place) : drawing_->nodes_along(place);
   std::vector<NewField> card = values_.fields(one, cards, {"first", "last", "step"});
   card.insert(card.begin(), {"first", 0.0, values_.where(place), {}});

@@ -49,17 +49,11 @@ int rotation_of(const ElementEntry& entry, int node) {
 // Section forces as laws count them (tension positive): the same places as in kEndQuantities.
 using Section = std::array<double, 5>;
 
-// Some dof of the elements is a rotation: their law of one component has a moment.
-bool only_turns(const Group& group) {
-  return group.entry->law_size == 1 &&
-         std::ranges::any_of(group.entry->unknowns, [](const ElementUnknown& one) { return one.field.turns; });
-}
-
-// Of the stress of a law of bars or beams; turns: a moment alone.
-Section section_of(std::span<const double> sigma, bool turns) {
+// Of the stress of a law of bars or beams.
+Section section_of(std::span<const double> sigma) {
   Section section;
   section.fill(kNoValue);
-  section[turns ? kBendingMoment : kAxialForce] = sigma[0];
+  section[kAxialForce] = sigma[0];
   if (sigma.size() == 3) section[kShearForce] = sigma[1], section[kBendingMoment] = sigma[2];
   if (sigma.size() == 5) {
     section[kShearForce] = sigma[2];
@@ -168,7 +162,7 @@ class EndReader {
       for (std::size_t c = 0; c < sigma_.size(); ++c)
         sigma_[c] +=
             map[static_cast<std::size_t>(node) * points + p] * sigma_at(element, static_cast<int>(p))[c];
-    return section_of(sigma_, only_turns(group_));
+    return section_of(sigma_);
   }
 
   Section section_at(int element, int end, bool ring) {

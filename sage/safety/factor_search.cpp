@@ -44,8 +44,7 @@ std::optional<double> FactorSearch::next() const {
   }
   if (high) return bracketed() ? std::nullopt : std::optional<double>(0.5 * (*lower_ + *high));
   if (*lower_ >= limits_.largest) return {};
-  const double first = limits_.first_step > 0.0 ? limits_.first_step : kFirstStep * limits_.start;
-  const double step = std::max(kGrowth * step_, first);
+  const double step = std::max(kGrowth * step_, kFirstStep * limits_.start);
   return std::min(*lower_ + std::max(step, limits_.tolerance), limits_.largest);
 }
 

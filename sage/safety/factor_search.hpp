@@ -10,7 +10,6 @@ struct SearchLimits {
   double start = 1.0;        // first factor
   double tolerance = 0.005;  // widest bracket that ends the search
   double smallest = 0.05, largest = 20.0;
-  double first_step = 0.0;  // upwards; 0 = a tenth of the first factor
 };
 
 class FactorSearch {

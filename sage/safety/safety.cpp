@@ -200,9 +200,6 @@ void Finder::check() const {
   if (options_.stage >= stages)
     throw InputError("S260", place,
                      fmt::format("there is no stage {}; the deck has {}", options_.stage + 1, stages));
-  if (options_.seismic && options_.start == Start::anew)
-    throw InputError("S625", place,
-                     "the search for k_h goes on from state to state; --from anew is for factors of safety");
   for (const int number : options_.groups)
     if (std::ranges::none_of(model_.groups, [&](const Group& group) { return group.number == number; }))
       throw InputError("S260", place, fmt::format("there is no group {}", number));
@@ -265,7 +262,7 @@ void Finder::insert_trial_stage() {
   const std::size_t last = options_.stage < 0 ? whole : static_cast<std::size_t>(options_.stage);
   Stage trial;
   trial.number = model_.stages[last].number + 1;
-  trial.title = options_.seismic ? "pseudo-static load" : "strength reduction";
+  trial.title = "strength reduction";
   trial.max_iterations = options_.iterations;
   trial.tolerance = safety_.tolerance;
   trial.where = model_.stages[last].where;
@@ -293,8 +290,6 @@ void Finder::move_law_choices() {
 
 void Finder::set_factor(double factor) {
   factor_ = factor;
-  if (options_.seismic)
-    trial_stage().gravity = factor * Vector2(options_.seismic->direction, options_.seismic->vertical);
   for (std::size_t i = 0; i < materials_.size(); ++i) {
     Material& material = model_.materials[materials_[i]];
     material.parameters = strength_[i];
@@ -519,32 +514,26 @@ void Finder::conclude() {
   if (safety_.stopped)
     safety_.incomplete = "the search was interrupted";
   else if (!safety_.lower)
-    safety_.incomplete =
-        options_.seismic ? std::string("no equilibrium even without a horizontal load, k_h = 0")
-                         : fmt::format("no equilibrium even at F = {:g}, the smallest factor", limits.smallest);
+    safety_.incomplete = fmt::format("no equilibrium even at F = {:g}, the smallest factor", limits.smallest);
   else if (!safety_.upper)
-    safety_.incomplete =
-        fmt::format("still in equilibrium at {} = {:g}, the largest {}", quantity_symbol(options_),
-                    limits.largest, options_.seismic ? "that is tried" : "factor");
+    safety_.incomplete = fmt::format("still in equilibrium at F = {:g}, the largest factor", limits.largest);
   else if (!search_.bracketed())
     safety_.incomplete = "the search ended early";
   else if (safety_.at(safety_.upper)->verdict == Verdict::undecided)
     safety_.incomplete =
-        std::string("at the upper end no equilibrium was found, but the ground does not go on moving there: ") +
-        quantity_symbol(options_) + " may be larger";
+        "at the upper end no equilibrium was found, but the ground does not go on moving there: F may be "
+        "larger";
   else if (!safety_.at(safety_.upper)->proved)
-    safety_.incomplete = "at the upper end no equilibrium was found, but it was not proved by motion: " +
-                         std::string(quantity_symbol(options_)) + " may be larger";
+    safety_.incomplete =
+        "at the upper end no equilibrium was found, but it was not proved by motion: F may be larger";
 }
 
 Safety Finder::find() {
   check();
   safety_.tolerance = std::clamp(0.01 * options_.limits.tolerance, 1e-10, 1e-4);
   insert_trial_stage();
-  if (!options_.seismic) {
-    choose_materials();
-    keep_other_strengths();
-  }
+  choose_materials();
+  keep_other_strengths();
   const auto go_on = [&] { return !safety_.stopped && (options_.start == Start::anew || !search_.lower()); };
   while (go_on()) {
     const std::optional<double> factor = next_factor();
@@ -557,15 +546,6 @@ Safety Finder::find() {
 }
 
 }  // namespace
-
-const char* quantity_symbol(const Options& options) {
-  return options.seismic ? "k_h" : "F";
-}
-
-SearchLimits seismic_limits(double tolerance) {
-  constexpr double kFirst = 0.05, kMost = 3.0;
-  return {.start = 0.0, .tolerance = tolerance, .smallest = 0.0, .largest = kMost, .first_step = kFirst};
-}
 
 const FactorTrial* Safety::at(std::optional<double> factor) const {
   for (std::size_t i = trials.size(); i-- > 0;)

@@ -22,17 +22,8 @@ enum class Start {
   anew,     // from the beginning of the deck: every stage is run with the divided strengths
 };
 
-// In place of a factor on strengths: k_h, which grows with the strengths as they are.
-struct SeismicSearch {
-  double direction = 1.0;  // 1: the ground is pushed along +x, -1: along -x
-  double vertical = 0.0;   // k_v over k_h, upwards positive
-};
-// Limits of a search for k_h of that width.
-SearchLimits seismic_limits(double tolerance);
-
 struct Options {
   SearchLimits limits;
-  std::optional<SeismicSearch> seismic;  // the factors of the search and its results are then k_h
   DilationRule dilation = DilationRule::reduced;
   Start start = Start::carried;
   int stage = -1;  // the last stage that is run, from 0; negative = the model's last
@@ -99,9 +90,6 @@ struct Safety {
   // The last trial of a factor; nullptr = it was not tried.
   const FactorTrial* at(std::optional<double> factor) const;
 };
-
-// "F", or "k_h".
-const char* quantity_symbol(const Options& options);
 
 // Behind the chosen stage the model gets one for the trials, and its materials change; it must outlive the result.  settings: as for run().
 // Throws InputError (a model in which nothing has strength; a stage or a group that it lacks) and what run() throws.

@@ -39,29 +39,25 @@ std::string rule_words(const Options& options) {
 }
 
 std::string head(const Model& model, const Options& options, const Safety& found) {
-  const std::string what =
-      options.seismic
-          ? fmt::format(
-                "pseudo-static load: k_h towards {}x, k_v = {:g} k_h (upwards positive); strengths as they are",
-                options.seismic->direction > 0.0 ? "+" : "-", options.seismic->vertical)
-          : "strength reduction: " + rule_words(options);
-  std::string text = fmt::format("{}: {}\n{}\n", model.file, model.title, what);
+  std::string text =
+      fmt::format("{}: {}\nstrength reduction: {}\n", model.file, model.title, rule_words(options));
   for (const std::string& line : found.reduced) fmt::format_to(to(text), "  divided      material {}\n", line);
   for (const std::string& line : found.untouched)
     fmt::format_to(to(text), "  not divided  material {}\n", line);
   const int stage = found.stages;
   if (options.start == Start::carried)
-    fmt::format_to(to(text),
-                   "each {} starts from the state of the last one that stands; the first from stages 1 to {}\n",
-                   options.seismic ? "k_h" : "factor", stage);
+    fmt::format_to(
+        to(text),
+        "each factor starts from the state of the last one that stands; the first from stages 1 to {}\n",
+        stage);
   else
     fmt::format_to(to(text), "each factor runs stages 1 to {} from the beginning\n", stage);
   return text;
 }
 
-std::string table(const Model& model, const Options& options, const Safety& found) {
+std::string table(const Model& model, const Safety& found) {
   std::string text =
-      fmt::format("{:>10}{:>11}{:>22}{:>8}{:>12}{:>10}\n", options.seismic ? "k_h" : "factor", "",
+      fmt::format("{:>10}{:>11}{:>22}{:>8}{:>12}{:>10}\n", "factor", "",
                   "largest displ. [" + model.units.length + "]", "node", "iterations", "yielding");
   for (const FactorTrial& trial : found.trials)
     fmt::format_to(to(text), "{:>10.6g}{:>11}{:>22.4E}{:>8}{:>12}{:>10}\n", trial.factor,
@@ -118,8 +114,8 @@ std::string bracket_words(const Safety& found) {
 }
 
 std::string to_text(const Model& model, const Options& options, const Safety& found) {
-  std::string text = head(model, options, found) + table(model, options, found);
-  fmt::format_to(to(text), "{} {}\n", options.seismic ? "critical k_h" : "safety factor", bracket_words(found));
+  std::string text = head(model, options, found) + table(model, found);
+  fmt::format_to(to(text), "safety factor {}\n", bracket_words(found));
   text += end_line("lower end", found, found.lower) + end_line("upper end", found, found.upper);
   text += failing_lines(model, found);
   if (!found.incomplete.empty()) fmt::format_to(to(text), "  NOT PROVED: {}\n", found.incomplete);
@@ -159,11 +155,11 @@ std::vector<std::size_t> groups_of_curves(const Model& model, const std::vector<
 
 }  // namespace
 
-std::string curve_svg(const Model& model, const Options& options, const Safety& found) {
+std::string curve_svg(const Model& model, const Safety& found) {
   Plot plot;
   plot.title = model.title;
   plot.x_label = "largest displacement [" + model.units.length + "]";
-  plot.y_label = options.seismic ? "horizontal share of the weight k_h" : "strength reduction factor F";
+  plot.y_label = "strength reduction factor F";
   PlotSeries stands{.name = "equilibrium", .x = {}, .y = {}, .markers = true, .style = 0};
   std::vector<const FactorTrial*> rows;
   for (const FactorTrial& trial : found.trials)
@@ -198,7 +194,7 @@ std::string curve_svg(const Model& model, const Options& options, const Safety& 
   return plot_svg(plot);
 }
 
-std::string mechanism_svg(Model& model, const Options& options, const Safety& found) {
+std::string mechanism_svg(Model& model, const Safety& found) {
   if (!found.mechanism) return {};
   if (model.fields.find("shear_strain") == nullptr)
     model.fields.add({.name = "shear_strain",
@@ -207,7 +203,7 @@ std::string mechanism_svg(Model& model, const Options& options, const Safety& fo
                           [](const Vector4& e, double* value) { *value = std::hypot(e[0] - e[1], e[3]); }}});
   PictureOptions look;
   look.deformed = true;  // a mechanism is a movement
-  look.state = fmt::format("attempt at {} = {:.6g}, scaled", quantity_symbol(options), found.mechanism_factor);
+  look.state = fmt::format("attempt at F = {:.6g}, scaled", found.mechanism_factor);
   look.arrows = true;
   return field_svg(model, found.mechanism->view(), "shear_strain", look);
 }

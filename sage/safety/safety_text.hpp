@@ -20,8 +20,8 @@ std::string to_text(const Model& model, const Options& options, const Safety& fo
 // A row a factor, as they were tried.
 std::string to_csv(const Model& model, const Safety& found, int digits);
 // The factor against the largest displacement since the strengths began to fall, with the bracket.
-std::string curve_svg(const Model& model, const Options& options, const Safety& found);
+std::string curve_svg(const Model& model, const Safety& found);
 // Increment of shear strain and of displacement of the mechanism; empty where there is none.
-std::string mechanism_svg(Model& model, const Options& options, const Safety& found);
+std::string mechanism_svg(Model& model, const Safety& found);
 
 }  // namespace sage::safety

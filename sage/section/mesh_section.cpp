@@ -176,31 +176,4 @@ SectionMesh mesh_section(const Section& section, const MeshSettings& settings) {
   return section::Making(section, settings).make();
 }
 
-SectionMesh mesh_section(const Section& section, const GivenMesh& given) {
-  section::Faults faults;
-  section::check_data(section, faults);
-  section::Arrangement arrangement;
-  if (faults.empty()) arrangement = section::arrange(section, {}, faults);
-  if (!faults.empty()) throw SectionError(faults);
-  section::FlatMesh mesh;
-  mesh.x = arrangement.vertices;
-  std::vector<int> node_of;
-  for (std::size_t n = 0; n < given.x.size(); ++n) {
-    const bool on_line = given.point[n] >= 0;
-    node_of.push_back(on_line ? arrangement.vertex_of_point[given.point[n]] : static_cast<int>(mesh.x.size()));
-    if (!on_line) mesh.x.push_back(given.x[n]);
-  }
-  for (const section::Piece& piece : arrangement.pieces) {
-    mesh.on_piece.push_back({piece.first, piece.last});
-    mesh.places.push_back({0.0, 1.0});
-  }
-  for (const GivenMesh::Cell& cell : given.cells) {
-    section::Cell& own = mesh.cells.emplace_back();
-    own.area = cell.area;
-    for (std::size_t i = 0; i < 4; ++i)
-      if (cell.nodes[i] >= 0) own.nodes[i] = node_of[cell.nodes[i]];
-  }
-  return section::split(section, arrangement, mesh);
-}
-
 }  // namespace sage

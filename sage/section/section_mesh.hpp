@@ -107,19 +107,6 @@ std::vector<SectionFault> check_section(const Section& section);
 // same input gives the same mesh.  One thread at a time: Gmsh has global state.
 SectionMesh mesh_section(const Section& section, const MeshSettings& settings = {});
 
-// A mesh that is there already: the corners of its elements.
-struct GivenMesh {
-  struct Cell {
-    std::array<int, 4> nodes{-1, -1, -1, -1};  // counter-clockwise; the last is -1 for a triangle
-    int area = -1;
-  };
-  std::vector<Vector2> x;
-  std::vector<int> point;  // by node: the section's point there; -1 inside of an area
-  std::vector<Cell> cells;
-};
-// With that mesh, whose nodes on outlines and lines are all of the section's points there.  Throws SectionError.
-SectionMesh mesh_section(const Section& section, const GivenMesh& given);
-
 // Whether Gmsh can be loaded; `reason` gets why not.
 bool gmsh_available(std::string* reason = nullptr);
 

@@ -166,51 +166,6 @@ TEST(Safety, SlabOnASlopeIsTheInfiniteSlope) {
   }
 }
 
-// Critical k_h of the infinite slope.  Without cohesion k_c = tan(phi - beta); with it the balance along and across the slope
-// gives k_c = (c / (gamma z cos(beta)^2) + tan(phi) - tan(beta)) / (1 + tan(phi) tan(beta)).  In axes along the slope a
-// horizontal share k has the components k cos(beta) and k sin(beta), off the slope.
-TEST(Safety, CriticalHorizontalLoadOfTheInfiniteSlope) {
-  struct Row {
-    double c, phi, beta;
-  };
-  for (const Row& row : {Row{0, 35, 25}, Row{4, 30, 20}}) {
-    constexpr double kWeight = 20.0, kDepth = 3.0;  // the depth is vertical
-    const double b = row.beta * kDegree, tangent = std::tan(row.phi * kDegree);
-    const double expected = (row.c / (kWeight * kDepth * std::cos(b) * std::cos(b)) + tangent - std::tan(b)) /
-                            (1.0 + tangent * std::tan(b));
-    if (row.c == 0.0) {
-      ASSERT_NEAR(expected, std::tan(row.phi * kDegree - b), 1e-12);
-    }
-    Options options;
-    options.limits = seismic_limits(1e-6);
-    options.seismic = SeismicSearch{1.0, std::tan(b)};
-    const Safety found = find(slab(row.c, row.phi, kWeight, kDepth * std::cos(b), row.beta, 23), options);
-    expect_around(found, expected * std::cos(b), 1e-6);
-    EXPECT_EQ(found.trials.front().factor, 0.0);
-  }
-}
-
-// Pushed up the slope instead: k_c = tan(phi + beta).
-TEST(Safety, CriticalHorizontalLoadUphill) {
-  const double b = 10.0 * kDegree;
-  Options options;
-  options.limits = seismic_limits(1e-6);
-  options.seismic = SeismicSearch{-1.0, -std::tan(b)};
-  expect_around(find(slab(0.0, 25.0, 20.0, 3.0, 10.0, 23), options), std::tan(35.0 * kDegree) * std::cos(b),
-                1e-6);
-}
-
-// A slope that fails by its own weight has no critical load.
-TEST(Safety, CriticalHorizontalLoadNeedsASlopeThatStands) {
-  Options options;
-  options.limits = seismic_limits(0.01);
-  options.seismic = SeismicSearch{};
-  const Safety found = find(slab(0.0, 20.0, 20.0, 3.0, 25.0, 23), options);
-  EXPECT_FALSE(found.complete());
-  EXPECT_FALSE(found.lower);
-  EXPECT_NE(found.incomplete.find("k_h = 0"), std::string::npos) << found.incomplete;
-}
-
 // Seepage along the slope, in the lowest part `wet` of the slab: in its axes a level, under which the pressure grows by
 // gamma_w cos(beta) a length.  F = (c + (gamma - wet gamma_w) z cos(beta)^2 tan(phi)) / (gamma z sin(beta) cos(beta)).
 TEST(Safety, SlabWithSeepageAlongTheSlope) {
