@@ -38,12 +38,13 @@ PoreStiffness stiffness_of(const GroupData& data, int element, const PointContex
   const std::size_t point =
       static_cast<std::size_t>(element) * static_cast<std::size_t>(data.group->element->traits().points);
   const PointStates& state = data.state.committed;
-  std::vector<double> h1(law.traits().history.size());
-  PointIn<4> in{Vector4::Map(state.sigma.data() + 4 * point),
-                Vector4::Map(state.eps.data() + 4 * point),
-                Vector4::Zero(),
-                {state.h.data() + point * static_cast<std::size_t>(data.state.history_size()), h1.size()},
-                &context};
+  std::vector<double> h0(law.traits().history.size()), h1(h0.size());
+  PointIn<4> in{Vector4::Zero(), Vector4::Zero(), Vector4::Zero(), h0, &context};
+  if (!state.sigma.empty()) {  // else a linear group whose states no output needs
+    in.sigma0 = Vector4::Map(state.sigma.data() + 4 * point);
+    in.eps0 = Vector4::Map(state.eps.data() + 4 * point);
+    in.h0 = {state.h.data() + point * static_cast<std::size_t>(data.state.history_size()), h1.size()};
+  }
   PointOut<4> out;
   out.h1 = h1;
   if (law.update(in, out) == Outcome::ok) found.modulus = std::max(out.D(0, 0), out.D(1, 1));

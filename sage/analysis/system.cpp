@@ -119,8 +119,7 @@ void System::take_histories(const Stage& stage, double from, double to) {
   bool changed = false;
   for (const FieldFixity& f : stage.field_fixities) {
     const int dof = f.history.empty() ? -1 : activity_.dof_map.of(f.node, f.field);
-    if (dof < 0 || f.code != FixityCode::fixed) continue;
-    if (model_.unknowns[f.field].of_pores && stage.pores != PoreWater::flows) continue;
+    if (dof < 0 || f.code != FixityCode::fixed || stage.pores != PoreWater::flows) continue;
     rate_[dof] = (added_at(f, to, stage.duration) - added_at(f, from, stage.duration)) / (to - from);
     changed = true;
   }

@@ -96,9 +96,8 @@ TimeTable read_history_of_time(Builder& b, const CardView& card, int field) {
   for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2)
     table.emplace_back((*numbers)[i], (*numbers)[i + 1]);
   const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
-  const auto suits = [](const UnknownField& one) { return one.of_pores || one.name == "head"; };
-  if (field == 0 || !suits(b.model.unknowns[field]))
-    b.error("S579", card.where("history"), "a history is for the unknowns excess_pressure and head alone");
+  if (field == 0 || !b.model.unknowns[field].of_pores)
+    b.error("S579", card.where("history"), "a history is for the unknown excess_pressure alone");
   else if (!numbers || numbers->size() % 2 != 0 || table.empty() || text.size() > kColumnsOfText)
     b.error("S579", card.where("history"),
             "a history is pairs of a time and a share, with blanks between, of 80 characters at most");

@@ -70,13 +70,11 @@ void lengthen_cards(Layout& layout) {
        field("output_times", "times since the start of the stage with output, with blanks between",
              FieldKind::text)});
   for (const char* card : {"stage_fixity", "load"})
-    lengthen(
-        layout, card, "A80",
-        {field(
-            "history",
-            "of an excess pressure or head: times since the start of the stage and the share of the value that "
-            "is reached then, as 0 0 2 1 10 0.5; blank = in proportion to time",
-            FieldKind::text)});
+    lengthen(layout, card, "A80",
+             {field("history",
+                    "of an excess pressure: times since the start of the stage and the share of the value that "
+                    "is reached then, as 0 0 2 1 10 0.5; blank = in proportion to time",
+                    FieldKind::text)});
   lengthen(
       layout, "pressure", "A20,A80",
       {field("unknown",

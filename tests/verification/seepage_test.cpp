@@ -376,38 +376,6 @@ TEST(Seepage, StagesAddHeads) {
   EXPECT_NEAR(run.discharge(), -0.5, 1e-13);
 }
 
-// A head with a history: h(t) = 3 f(t) at one end of a row, 0 at the other, and the flow that belongs to each of them.
-TEST(Seepage, AHeadFollowsItsHistory) {
-  ModelInput input;
-  input.units = {"m", "kN", "kPa", 101.325, 10.0};
-  input.materials = {{"darcy", {{"permeability", 2.0}}}};
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 2; ++j) input.nodes.emplace_back(1.0 * i, 1.0 * j);
-  GroupInput cells;
-  cells.element = "flow_quad4";
-  for (int i = 0; i < 3; ++i) cells.elements.push_back({2 * i + 1, 2 * i + 3, 2 * i + 4, 2 * i + 2});
-  input.groups = {cells};
-  StageInput stage{.increments = 4};
-  stage.duration = 8.0;
-  stage.supports = {{.nodes = {1, 2}, .x = FixityCode::fixed, .x_value = 0.0, .unknown = "head"},
-                    {.nodes = {7, 8},
-                     .x = FixityCode::fixed,
-                     .x_value = 3.0,
-                     .unknown = "head",
-                     .history = {{0.0, 0.5}, {4.0, 1.0}, {6.0, -1.0}}}};
-  input.stages = {stage, {.title = "as it is"}};
-  const auto bench = app::make_workbench();
-  const WholeRun run = bench.run(build_model(input, bench.catalogue()));
-  ASSERT_TRUE(run.completed()) << run.failure;
-  const DofMap map(*run.model);
-  const double expected[] = {0.75, 1.0, -1.0, -1.0, -1.0};
-  ASSERT_EQ(run.increments.size(), 5u);
-  for (std::size_t k = 0; k < 5; ++k)
-    for (int i = 0; i < 4; ++i)
-      EXPECT_NEAR(run.increments[k].u[map.of(run.index(2 * i + 1), 1)], 3.0 * expected[k] * i / 3.0, 1e-12)
-          << k;
-}
-
 // Ground whose surface lets water out and none in, fed by a well; water may leave where it stands at the surface.
 Flow springs(Cell cell, int n) {
   Flow flow({2 * n, n, cell, 1, 1, rectangle(0.0, 8.0, 0.0, 4.0)});
