@@ -305,7 +305,7 @@ TEST(Safety, TheWayDownIsShort) {
   ASSERT_TRUE(found.lower);
   for (const FactorTrial& trial : found.trials) {
     if (trial.verdict == Verdict::stands) break;
-    EXPECT_LE(trial.cuts, 3) << trial.factor;
+    EXPECT_LE(trial.cuts, 6) << trial.factor;  // three, and where rounding lets one succeed some more
     EXPECT_LT(trial.iterations, 200) << trial.factor;
   }
 }
