@@ -12,11 +12,9 @@ namespace sage {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kOnSurface = 1e-12;  // of p_c: what rounding leaves outside
-constexpr double kIsotropic = 1e-13;  // of p_c: a deviator below has no direction
-constexpr double kSamePlace = 1e-13;
-constexpr double kPlaceDigits = 1e-7;  // a last correction of Newton's method for the place on the surface
-constexpr double kRoughDigits = 1e-4;  // and where only an estimate is wanted
+constexpr double kOnSurface = 1e-12;   // of p_c: what rounding leaves outside
+constexpr double kIsotropic = 1e-13;   // of p_c: a deviator below has no direction
+constexpr double kAngleDigits = 1e-8;  // a last correction of Newton's method for the place on the surface
 constexpr int kRounds = 200;
 constexpr double kNearSurface = 1e-10;  // of ln(level)
 constexpr double kMostStrain = 100.0;   // change of volume that a current v can follow
@@ -95,15 +93,15 @@ double van_eekelen_ratio(double M) {
   return (3.0 - sine) / (3.0 + sine);
 }
 
-// The mean of exp over [0, x], (exp(x) - 1)/x, and its derivative; exponential is exp(x).
+// The mean of exp over [0, x], (exp(x) - 1)/x, and its derivative.
 struct MeanExp {
   double value, slope;
 };
-inline MeanExp mean_exp(double x, double exponential) {
+MeanExp mean_exp(double x) {
   if (std::abs(x) < 0.01)
     return {1.0 + x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x / 720)))),
             1.0 / 2 + x * (1.0 / 3 + x * (1.0 / 8 + x * (1.0 / 30 + x * (1.0 / 144 + x / 840))))};
-  const double mean = (exponential - 1.0) / x;
+  const double exponential = std::exp(x), mean = (exponential - 1.0) / x;
   return {mean, (exponential - mean) / x};
 }
 
@@ -122,6 +120,11 @@ Vector4 lode_gradient(const Vector4& s, double q) {
   return -13.5 / (q * q * q) * (square - 4.5 * determinant / (q * q) * s);
 }
 
+// a such that a.b is a:b of two tensors.
+Vector4 work_row(const Vector4& a) {
+  return {a[0], a[1], a[2], 2.0 * a[3]};
+}
+
 // Square of the difference of ln p and s/p; over kFar^2 it is what extrapolation is weighted by.
 double square_difference(double log_p, const Vector4& ratio) {
   return log_p * log_p + contract(ratio, ratio);
@@ -130,50 +133,30 @@ double weight_of(double square) {
   return 1.0 / (1.0 + square / (kFar * kFar));
 }
 
-constexpr double kCritical = 0.5;
-constexpr double kLastPlace = 1.0 - 1e-15;
+constexpr double kCritical = 0.5 * kPi;
 // Of a place on the surface, from ln(p/p_c).
-double place_at(double log_share) {
-  const double t = std::sqrt(std::expm1(-std::min(log_share, 0.0)));
-  return std::min(1.0 - 1.0 / (1.0 + t), kLastPlace);
+double angle_at(double log_share) {
+  return 2.0 * std::acos(std::exp(0.5 * std::min(log_share, 0.0)));
 }
 
 const Vector4 kVolumeRate(-1.0, -1.0, -1.0, 0.0);  // of the volume, compression positive, by the strain
 
 }  // namespace
 
-// What a whole update starts from and adds.  Every deviator on its way is a sum a s + b e of these two.
-struct ModifiedCamClay::Increment {
-  Vector4 s;      // deviator at the start
-  Vector4 e;      // deviator of the strains, tensor components
-  double volume;  // compression positive
-  bool rates;     // are wanted
-};
-
-// A deviator a s + b e, and how it changes with the strains of the update.
-struct ModifiedCamClay::Deviator {
-  Vector4 value;
-  double a = 1.0, b = 0.0;
-  Vector4 a_rate = Vector4::Zero(), b_rate = Vector4::Zero();
-
-  // The rate of w:value.
-  Vector4 rate_along(const Vector4& w, const Increment& of) const {
-    return contract(w, of.s) * a_rate + contract(w, of.e) * b_rate + b * deviator(w);
-  }
-};
-
-// A state, and how it changes with the strains of the update (rates).  Logarithms are of pressures over the first p_c.
+// A state, and how it changes with the strain increment of the whole update (rates: a row for each quantity).
 struct ModifiedCamClay::Point {
-  Deviator s;
-  double p = 0.0, p_c = 0.0, log_p = 0.0, log_c = 0.0;
-  double v = 0.0;  // specific volume
+  Vector4 s = Vector4::Zero();  // deviator
+  Matrix4 s_rate = Matrix4::Zero();
+  double log_p = 0.0, log_c = 0.0, v = 0.0;  // ln p, ln p_c, specific volume
   Vector4 log_p_rate = Vector4::Zero(), log_c_rate = Vector4::Zero(), log_v_rate = Vector4::Zero();
-  double log_least = 0.0;  // of the least p
+  double log_least = 0.0;  // ln of the least p
   double shear = 0.0, plastic_volume = 0.0;
   PointStatus status = PointStatus::elastic;
   bool at_floor = false;
-  double place = kCritical;  // on the surface, for the first guess of the next one
+  double angle = kCritical;  // of the place on the surface, for the first guess of the next one
   double kappa = 0.0;        // of the step that led here
+
+  Vector4 ratio() const;  // s/p
 };
 
 // Which share of the update's increment a step takes, and how that changes with the increment.
@@ -184,48 +167,40 @@ struct ModifiedCamClay::Part {
 
 // A step from a point on.  Volume is compression positive.
 struct ModifiedCamClay::Step {
-  const Increment& of;
   const Point& from;
-  const Part& part;
+  Vector4 e;  // deviator of the strain increment, tensor components
+  Matrix4 e_rate;
   double volume;
+  Vector4 volume_rate;
+  double p0, p_c0;
   double kappa, harden;   // kappa/v and (lambda - kappa)/v, v the mean over the step
+  Vector4 stiffer;        // rate of ln v
   double elastic_growth;  // ln(p/p0) of an elastic step, without the floor
-  Vector4 volume_rate = Vector4::Zero(), stiffer = Vector4::Zero();  // stiffer: rate of ln v
-  Vector4 elastic_growth_rate = Vector4::Zero();
+  Vector4 elastic_growth_rate;
 };
 
-// The elastic deviator of a step in which ln(p/p0) grows, and the M that belongs to it.
-struct ModifiedCamClay::Trial {
-  double growth, G, G_by_growth;
-  double b;  // its deviator is a s + b e, a that of the step's start
-  Vector4 deviator;
-  double q;
-  Slope slope;
-  bool has_direction;  // the deviator is no rounding
-};
-
-// A place on the surface: p = p_c cos^2(alpha/2), q = M p_c sin(alpha)/2, and what the flow rule lacks there.
-// Rates are by the angle alpha.  The number of a place is u, tan(alpha/2) = u/(1 - u): that takes no trigonometry.
+// A place on the surface: p = p_c cos^2(angle/2), q = M p_c sin(angle)/2, and what the flow rule lacks there.
+// angle = pi/2 is the critical state.  Of an elastic trial only growth, G, trial, q_trial, lode and M are set.
 struct ModifiedCamClay::OnSurface {
-  double place, angle_rate;  // of the angle, by the place
-  double sine, cosine;
-  double log_share, log_share_rate;  // ln(p/p_c)
-  double hardening, hardening_rate;  // ln(p_c/p_c0)
-  double x;                          // plastic change of volume
-  double p, p_c, q;
-  Trial trial;
-  double lack, lack_rate;  // 3 G x sin(alpha) - M cos(alpha) (q_trial - q)
-  double lack_by_G;
+  double angle, sine, cosine;
+  double log_share;                       // ln(p/p_c)
+  double log_share_rate;                  // this rate and the next are by the angle
+  double hardening, hardening_rate;       // ln(p_c/p_c0)
+  double x;                               // plastic change of volume
+  double p_c, growth, G, G_by_growth, q;  // growth: ln(p/p0)
+  Vector4 trial;                          // elastic deviator
+  double q_trial, lode;
+  Slope slope;
+  double lack, lack_rate;  // 3 G x sin(angle) - M cos(angle) (q_trial - q)
+  Vector4 lack_by_trial;   // rate by the trial deviator, tensor components
+  double by_G;             // and by G
   bool at_floor;
-
-  // Rate by the trial deviator, tensor components.
-  Vector4 lack_by_trial() const;
+  bool has_direction;  // the trial deviator is no rounding
 };
 
-struct ModifiedCamClay::ElasticEnd {
-  Trial trial;
-  double p, log_share;  // ln(p/p_c)
-  double level;         // as stress_level()
+struct ModifiedCamClay::ElasticTrial {
+  OnSurface at;
+  double log_share, log_level;  // ln(p/p_c) and ln(level)
 };
 
 // An increment that leaves the surface, in one step and in two.
@@ -267,12 +242,6 @@ ModifiedCamClay::Slope ModifiedCamClay::slope(double lode) const {
   return {clay_.M, 0.0};
 }
 
-// Of a deviator; q = 0 where it has no direction.
-ModifiedCamClay::Slope ModifiedCamClay::slope_of(const Vector4& s, double q) const {
-  if (clay_.shape == DeviatoricShape::circle) return {clay_.M, 0.0};
-  return slope(q > 0.0 ? lode_of(s, q) : 1.0);
-}
-
 // p_c of the surface through a stress; infinite where its mean is no compression.
 double ModifiedCamClay::size_through(const Vector4& sigma) const {
   const double p = -mean_stress(sigma);
@@ -280,7 +249,7 @@ double ModifiedCamClay::size_through(const Vector4& sigma) const {
   const Vector4 s = deviator(sigma);
   const double q = q_of(s);
   if (q == 0.0) return p;
-  const double M = slope_of(s, q).M;
+  const double M = slope(lode_of(s, q)).M;
   return p + q / M * (q / M) / p;
 }
 
@@ -331,13 +300,25 @@ std::string ModifiedCamClay::remark() const {
          "can leave a shear strain; a constant shear_modulus does not";
 }
 
-ModifiedCamClay::Step ModifiedCamClay::step_from(const Increment& of, const Point& point,
+ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vector4& deps,
                                                  const Part& part) const {
-  Step step{of, point, part, part.share * of.volume, 0.0, 0.0, 0.0};
-  if (of.rates) step.volume_rate = part.share * kVolumeRate + of.volume * part.rate;
+  const Vector4 e = deviatoric_projection() * deps;
+  const double volume = kVolumeRate.dot(deps);
+  Step step{point,
+            part.share * e,
+            part.share * deviatoric_projection() + e * part.rate.transpose(),
+            part.share * volume,
+            part.share * kVolumeRate + volume * part.rate,
+            std::exp(point.log_p),
+            std::exp(point.log_c),
+            0.0,
+            0.0,
+            Vector4::Zero(),
+            0.0,
+            Vector4::Zero()};
   double v = point.v;
   if (clay_.current_volume) {
-    const MeanExp mean = mean_exp(-step.volume, std::exp(-step.volume));
+    const MeanExp mean = mean_exp(-step.volume);
     v *= mean.value;
     step.stiffer = point.log_v_rate - mean.slope / mean.value * step.volume_rate;
   }
@@ -348,66 +329,58 @@ ModifiedCamClay::Step ModifiedCamClay::step_from(const Increment& of, const Poin
   return step;
 }
 
-// The elastic deviator where p is exp(growth) times that of the start.  Secant moduli over the step: K is
-// (p - p0)/(elastic strain), and G in proportion.
-ModifiedCamClay::Trial ModifiedCamClay::trial_of(const Step& step, double growth, double exponential) const {
-  const Point& from = step.from;
-  Trial trial;
-  trial.growth = growth;
-  trial.G = clay_.G;
-  trial.G_by_growth = 0.0;
+// The elastic deviator for a growth of p.  Secant moduli over the step: K is (p - p0)/(elastic strain), and G in
+// proportion.
+void ModifiedCamClay::set_trial(const Step& step, OnSurface& at) const {
+  at.G = clay_.G;
+  at.G_by_growth = 0.0;
   if (clay_.G == 0.0) {
-    const MeanExp mean = mean_exp(growth, exponential);
-    const double first = by_bulk_ * from.p / step.kappa;
-    trial.G = first * mean.value;
-    trial.G_by_growth = first * mean.slope;
+    const MeanExp mean = mean_exp(at.growth);
+    const double first = by_bulk_ * step.p0 / step.kappa;
+    at.G = first * mean.value;
+    at.G_by_growth = first * mean.slope;
   }
-  const double more = 2.0 * trial.G * step.part.share;
-  trial.b = from.s.b + more;
-  trial.deviator = from.s.value + more * step.of.e;
-  trial.q = q_of(trial.deviator);
-  trial.has_direction = trial.q > kIsotropic * from.p_c;
-  trial.slope = slope_of(trial.deviator, trial.has_direction ? trial.q : 0.0);
-  return trial;
+  at.trial = step.from.s + 2.0 * at.G * step.e;
+  at.q_trial = q_of(at.trial);
+  at.has_direction = at.q_trial > kIsotropic * step.p_c0;
+  at.lode = at.has_direction ? lode_of(at.trial, at.q_trial) : 1.0;
+  at.slope = slope(at.lode);
 }
 
-Vector4 ModifiedCamClay::OnSurface::lack_by_trial() const {
-  if (!trial.has_direction) return Vector4::Zero();
-  const auto& [M, M_by_lode] = trial.slope;
-  Vector4 by = -1.5 * M * cosine / trial.q * trial.deviator;
-  if (M_by_lode != 0.0) by -= cosine * (trial.q - 2.0 * q) * M_by_lode * lode_gradient(trial.deviator, trial.q);
-  return by;
-}
-
-ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double place) const {
-  const Point& from = step.from;
-  OnSurface at;
-  at.place = place;
-  const double u = place, w = 1.0 - u, inverse = 1.0 / (w * w + u * u), share = w * w * inverse;
-  at.angle_rate = 2.0 * inverse;
-  at.sine = 2.0 * u * w * inverse;
-  at.cosine = (w - u) * inverse;
-  at.log_share = std::log(share);
-  at.log_share_rate = -u / w;
+ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double angle) const {
+  OnSurface at{};
+  at.angle = angle;
+  const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
+  at.sine = 2.0 * s * c;
+  at.cosine = (c - s) * (c + s);
+  at.log_share = 2.0 * std::log(c);
+  at.log_share_rate = -s / c;
   const double ratio = clay_.kappa / clay_.lambda;
-  at.hardening = ratio * (from.log_p + step.elastic_growth - from.log_c - at.log_share);
-  const double hardening_at_floor = from.log_least - from.log_c - at.log_share;
+  at.hardening = ratio * (step.from.log_p + step.elastic_growth - step.from.log_c - at.log_share);
+  const double hardening_at_floor = step.from.log_least - step.from.log_c - at.log_share;
   at.at_floor = hardening_at_floor > at.hardening;
   if (at.at_floor) at.hardening = hardening_at_floor;
   at.hardening_rate = -(at.at_floor ? 1.0 : ratio) * at.log_share_rate;
   at.x = step.harden * at.hardening;
-  at.p_c = from.p_c * std::exp(at.hardening);
-  at.p = share * at.p_c;
-  at.trial = trial_of(step, at.log_share + at.hardening + from.log_c - from.log_p, at.p / from.p);
-  const double M = at.trial.slope.M;
+  at.p_c = step.p_c0 * std::exp(at.hardening);
+  at.growth = at.log_share + at.hardening + step.from.log_c - step.from.log_p;
+  set_trial(step, at);
+  const double M = at.slope.M;
   at.q = 0.5 * M * at.p_c * at.sine;
-  const double G = at.trial.G, beyond = at.trial.q - at.q;
-  at.lack = 3.0 * G * at.x * at.sine - M * at.cosine * beyond;
-  at.lack_by_G = 3.0 * at.x * at.sine + 2.0 * step.part.share * contract(at.lack_by_trial(), step.of.e);
-  const double G_rate = at.trial.G_by_growth * (at.log_share_rate + at.hardening_rate);
+  const double beyond = at.q_trial - at.q;
+  at.lack = 3.0 * at.G * at.x * at.sine - M * at.cosine * beyond;
+  if (at.has_direction) {
+    at.lack_by_trial = -1.5 * M * at.cosine / at.q_trial * at.trial;
+    if (at.slope.by_lode != 0.0)
+      at.lack_by_trial -= at.cosine * (beyond - at.q) * at.slope.by_lode * lode_gradient(at.trial, at.q_trial);
+  } else {
+    at.lack_by_trial.setZero();
+  }
+  at.by_G = 3.0 * at.x * at.sine + 2.0 * contract(at.lack_by_trial, step.e);
+  const double G_rate = at.G_by_growth * (at.log_share_rate + at.hardening_rate);
   const double q_rate = 0.5 * M * at.p_c * at.cosine + at.q * at.hardening_rate;
-  at.lack_rate = 3.0 * G * (at.x * at.cosine + step.harden * at.hardening_rate * at.sine) +
-                 M * at.sine * beyond + M * at.cosine * q_rate + at.lack_by_G * G_rate;
+  at.lack_rate = 3.0 * at.G * (at.x * at.cosine + step.harden * at.hardening_rate * at.sine) +
+                 M * at.sine * beyond + M * at.cosine * q_rate + at.by_G * G_rate;
   return at;
 }
 
@@ -419,20 +392,18 @@ ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, 
   const double to_critical = std::max(step.from.log_p + step.elastic_growth, step.from.log_least) -
                              step.from.log_c +
                              std::numbers::ln2;  // in its sign: of the plastic change of volume on the way
-  const double own = place_at(log_trial);
+  const double own = angle_at(log_trial);
   double low = to_critical >= 0.0 ? std::min(own, kCritical) : kCritical;
   double high = to_critical <= 0.0 ? std::max(own, kCritical) : kCritical;
-  const double digits = step.of.rates ? kPlaceDigits : kRoughDigits;
-  OnSurface at;
+  OnSurface at{};
   double next = std::clamp(guess, low, high), before = high - low;
   for (int round = 0; round < kRounds; ++round) {
     at = on_surface(step, next);
     (at.lack < 0.0 ? low : high) = next;
-    next = at.lack_rate > 0.0 ? at.place - at.lack / (at.lack_rate * at.angle_rate) : kInfinite;
-    const double way = std::abs(next - at.place);
-    if (way <= kSamePlace) return at;
+    next = at.lack_rate > 0.0 ? at.angle - at.lack / at.lack_rate : kInfinite;
+    const double way = std::abs(next - at.angle);
     // Newton's method doubles the digits.
-    if (way <= digits) return on_surface(step, std::clamp(next, low, high));
+    if (way <= kAngleDigits) return on_surface(step, std::clamp(next, low, high));
     const bool slow = round % 3 == 2 && high - low > 0.5 * before;
     if (round % 3 == 2) before = high - low;
     if (slow || !(next > low && next < high)) next = 0.5 * (low + high);
@@ -441,113 +412,84 @@ ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, 
   return at;
 }
 
-// How G changes at a constant growth of p.
-Vector4 ModifiedCamClay::direct_G_rate(const Step& step, double G) const {
-  if (clay_.G > 0.0) return Vector4::Zero();
-  return G * (step.from.log_p_rate + step.stiffer);
-}
-
-ModifiedCamClay::Point ModifiedCamClay::elastic_end(const Step& step, const ElasticEnd& elastic) const {
-  const Trial& trial = elastic.trial;
+ModifiedCamClay::Point ModifiedCamClay::elastic_end(const Step& step, const OnSurface& trial) const {
   Point end = step.from;
   end.at_floor = trial.growth > step.elastic_growth;
-  end.s.value = trial.deviator;
-  end.s.b = trial.b;
-  end.p = elastic.p;
-  end.log_p += trial.growth;
-  end.status = end.at_floor ? PointStatus::cut_off : PointStatus::elastic;
-  if (!step.of.rates) return end;
   const Vector4 growth_rate = end.at_floor ? Vector4(-step.from.log_p_rate) : step.elastic_growth_rate;
-  const Vector4 G_rate = trial.G_by_growth * growth_rate + direct_G_rate(step, trial.G);
-  end.s.b_rate += 2.0 * (trial.G * step.part.rate + step.part.share * G_rate);
+  Vector4 G_rate = trial.G_by_growth * growth_rate;
+  if (clay_.G == 0.0) G_rate += trial.G * (step.from.log_p_rate + step.stiffer);
+  end.s = trial.trial;
+  end.s_rate += 2.0 * trial.G * step.e_rate + 2.0 * step.e * G_rate.transpose();
+  end.log_p += trial.growth;
   end.log_p_rate += growth_rate;
-  return end;
-}
-
-// What the return leaves of the trial deviator.
-double ModifiedCamClay::left_of_trial(const OnSurface& at) {
-  if (at.trial.has_direction) return at.q / at.trial.q;
-  const double M = at.trial.slope.M;
-  return M * M * at.p_c / (6.0 * at.trial.G * at.x + M * M * at.p_c);
-}
-
-ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSurface& at) const {
-  const double left = left_of_trial(at);
-  Point end = step.from;
-  end.log_c += at.hardening;
-  end.log_p = end.log_c + at.log_share;
-  end.p_c = at.p_c;
-  end.p = at.p;
-  end.s.value = left * at.trial.deviator;
-  end.s.a *= left;
-  end.s.b = left * at.trial.b;
-  end.status = PointStatus::yielded;
-  end.at_floor = at.at_floor;
-  end.place = at.place;
-  end.shear += (1.0 - left) * at.trial.q / (std::sqrt(3.0) * at.trial.G);
-  end.plastic_volume -= at.x;
-  if (step.of.rates) set_plastic_rates(step, at, left, end);
+  end.status = end.at_floor ? PointStatus::cut_off : PointStatus::elastic;
   return end;
 }
 
 // First the rates at a constant angle, then that of the angle at which nothing is lacking, and with it all others.
-void ModifiedCamClay::set_plastic_rates(const Step& step, const OnSurface& at, double left, Point& end) const {
+ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSurface& at) const {
   const Point& from = step.from;
-  const double ratio = clay_.kappa / clay_.lambda, G = at.trial.G;
-  const auto& [M, M_by_lode] = at.trial.slope;
-  const Vector4 G_direct = direct_G_rate(step, G);
+  const double ratio = clay_.kappa / clay_.lambda, M = at.slope.M;
+  const Vector4 G_direct =
+      clay_.G > 0.0 ? Vector4(Vector4::Zero()) : Vector4(at.G * (from.log_p_rate + step.stiffer));
   Vector4 hardening = -from.log_c_rate;
   if (!at.at_floor) hardening = ratio * (hardening + from.log_p_rate + step.elastic_growth_rate);
   const Vector4 growth = hardening + from.log_c_rate - from.log_p_rate;
-  Deviator trial = from.s;
-  trial.b = at.trial.b;
-  trial.b_rate += 2.0 * G * step.part.rate;  // at a constant G
-  const Vector4 lack = 3.0 * G * at.sine * step.harden * (hardening - at.hardening * step.stiffer) +
-                       M * at.cosine * at.q * (hardening + from.log_c_rate) +
-                       at.lack_by_G * (G_direct + at.trial.G_by_growth * growth) +
-                       trial.rate_along(at.lack_by_trial(), step.of);
+  const Vector4 G = G_direct + at.G_by_growth * growth;
+  const Matrix4 trial = from.s_rate + 2.0 * at.G * step.e_rate;  // at a constant G
+  const Vector4 lack = 3.0 * at.G * at.sine * step.harden * (hardening - at.hardening * step.stiffer) +
+                       M * at.cosine * at.q * (hardening + from.log_c_rate) + at.by_G * G +
+                       trial.transpose() * work_row(at.lack_by_trial);
   const Vector4 angle = -lack / at.lack_rate;
 
+  Point end = from;
+  end.log_c += at.hardening;
   end.log_c_rate += hardening + at.hardening_rate * angle;
+  end.log_p = end.log_c + at.log_share;
   end.log_p_rate = end.log_c_rate + at.log_share_rate * angle;
-  trial.b_rate +=
-      2.0 * step.part.share * (G_direct + at.trial.G_by_growth * (end.log_p_rate - from.log_p_rate));
-  Vector4 left_rate = Vector4::Zero();
-  if (at.trial.has_direction) {
-    Vector4 by_trial = -1.5 * left / (at.trial.q * at.trial.q) * at.trial.deviator;
-    if (M_by_lode != 0.0) by_trial += left * M_by_lode / M * lode_gradient(at.trial.deviator, at.trial.q);
-    left_rate = left * end.log_c_rate + 0.5 * M * at.p_c * at.cosine / at.trial.q * angle +
-                trial.rate_along(by_trial, step.of);
+  const Vector4 G_rate = G_direct + at.G_by_growth * (end.log_p_rate - from.log_p_rate);
+  const Matrix4 trial_rate = trial + 2.0 * step.e * G_rate.transpose();
+  double share = M * M * at.p_c / (6.0 * at.G * at.x + M * M * at.p_c);
+  Vector4 share_rate = Vector4::Zero();
+  if (at.has_direction) {
+    share = at.q / at.q_trial;
+    Vector4 by_trial = -1.5 * share / (at.q_trial * at.q_trial) * at.trial;
+    if (at.slope.by_lode != 0.0) by_trial += share * at.slope.by_lode / M * lode_gradient(at.trial, at.q_trial);
+    share_rate = share * end.log_c_rate + 0.5 * M * at.p_c * at.cosine / at.q_trial * angle +
+                 trial_rate.transpose() * work_row(by_trial);
   }
-  end.s.a_rate = left * trial.a_rate + trial.a * left_rate;
-  end.s.b_rate = left * trial.b_rate + trial.b * left_rate;
-}
-
-// Elastic to the end of the step, whether that is inside the surface or not.
-ModifiedCamClay::ElasticEnd ModifiedCamClay::stay_elastic(const Step& step) const {
-  const Point& from = step.from;
-  ElasticEnd end;
-  const double growth = std::max(step.elastic_growth, from.log_least - from.log_p);
-  end.trial.growth = growth;
-  end.log_share = growth + from.log_p - from.log_c;
-  end.level = kInfinite;
-  if (step.elastic_growth > kMostGrowth) return end;
-  const double exponential = std::exp(growth);
-  end.p = exponential * from.p;
-  end.trial = trial_of(step, growth, exponential);
-  const double height = end.trial.q / (end.trial.slope.M * end.p);
-  end.level = end.p / from.p_c * (1.0 + height * height);
+  end.s = share * at.trial;
+  end.s_rate = share * trial_rate + at.trial * share_rate.transpose();
+  end.status = PointStatus::yielded;
+  end.at_floor = at.at_floor;
+  end.angle = at.angle;
+  end.shear += (1.0 - share) * at.q_trial / (std::sqrt(3.0) * at.G);
+  end.plastic_volume -= at.x;
   return end;
 }
 
+// Elastic to the end of the step; whether that is inside the surface, and ln(p/p_c) there.
+ModifiedCamClay::ElasticTrial ModifiedCamClay::elastic_trial(const Step& step) const {
+  const Point& from = step.from;
+  ElasticTrial trial{};
+  trial.at.growth = std::max(step.elastic_growth, from.log_least - from.log_p);
+  trial.log_share = trial.at.growth + from.log_p - from.log_c;
+  trial.log_level = kInfinite;
+  if (step.elastic_growth > kMostGrowth) return trial;
+  set_trial(step, trial.at);
+  const double height = trial.at.q_trial / (trial.at.slope.M * std::exp(from.log_p + trial.at.growth));
+  trial.log_level = trial.log_share + std::log1p(height * height);
+  return trial;
+}
+
 // One step of backward Euler.
-ModifiedCamClay::Point ModifiedCamClay::advance(const Increment& of, const Point& point, const Part& part,
+ModifiedCamClay::Point ModifiedCamClay::advance(const Point& point, const Vector4& deps, const Part& part,
                                                 double guess) const {
-  const Step step = step_from(of, point, part);
-  const ElasticEnd elastic = stay_elastic(step);
-  Point end = elastic.level <= 1.0 + kOnSurface
-                  ? elastic_end(step, elastic)
-                  : plastic_end(step, return_to_surface(step, elastic.log_share, guess));
+  const Step step = step_from(point, deps, part);
+  const ElasticTrial trial = elastic_trial(step);
+  Point end = trial.log_level <= kOnSurface
+                  ? elastic_end(step, trial.at)
+                  : plastic_end(step, return_to_surface(step, trial.log_share, guess));
   end.kappa = step.kappa;
   if (clay_.current_volume) {
     end.v *= std::exp(-step.volume);
@@ -557,43 +499,32 @@ ModifiedCamClay::Point ModifiedCamClay::advance(const Increment& of, const Point
 }
 
 // Rate of ln(level) at an elastic state.
-Vector4 ModifiedCamClay::log_level_rate(const Increment& of, const Point& point) const {
-  const double q = q_of(point.s.value);
-  if (q <= kIsotropic * point.p_c) return point.log_p_rate;
-  const Slope M = slope_of(point.s.value, q);
-  const double height = q / (M.M * point.p), share = 2.0 * height * height / (1.0 + height * height);
-  Vector4 by_s = 1.5 / (q * q) * point.s.value;
-  if (M.by_lode != 0.0) by_s -= M.by_lode / M.M * lode_gradient(point.s.value, q);
-  return (1.0 - share) * point.log_p_rate + share * point.s.rate_along(by_s, of);
-}
-
-// Whether a point is on the surface and leaves it at once.
-bool ModifiedCamClay::yields_at_once(const Increment& of, const Point& start, const Vector4& deps) const {
-  const Increment still{of.s, Vector4::Zero(), 0.0, true};
-  const Part whole;
-  const Step step = step_from(still, start, whole);
-  const ElasticEnd end = stay_elastic(step);
-  return end.level > 1.0 - kNearSurface && log_level_rate(still, elastic_end(step, end)).dot(deps) >= 0.0;
+Vector4 ModifiedCamClay::log_level_rate(const Point& point) const {
+  const double q = q_of(point.s), p = std::exp(point.log_p);
+  if (q <= kIsotropic * std::exp(point.log_c)) return point.log_p_rate;
+  const Slope M = slope(lode_of(point.s, q));
+  const double height = q / (M.M * p), share = 2.0 * height * height / (1.0 + height * height);
+  Vector4 by_s = 1.5 / (q * q) * point.s;
+  if (M.by_lode != 0.0) by_s -= M.by_lode / M.M * lode_gradient(point.s, q);
+  return (1.0 - share) * point.log_p_rate + share * point.s_rate.transpose() * work_row(by_s);
 }
 
 // The part of an increment that is elastic, where all of it is not: up to the surface, without an error of its own.
-ModifiedCamClay::Part ModifiedCamClay::elastic_part(const Increment& of, const Point& start,
-                                                    const Vector4& deps) const {
-  if (yields_at_once(of, start, deps)) return {0.0};
-  const Increment with_rates{of.s, of.e, of.volume, true};
+ModifiedCamClay::Part ModifiedCamClay::elastic_part(const Point& start, const Vector4& deps) const {
+  const auto end_of = [&](const Step& step, const ElasticTrial& trial) { return elastic_end(step, trial.at); };
+  const Step still = step_from(start, Vector4::Zero(), {});
+  const ElasticTrial level = elastic_trial(still);
+  if (level.log_level > -kNearSurface && log_level_rate(end_of(still, level)).dot(deps) >= 0.0) return {0.0};
   double low = 0.0, high = 1.0, share = 0.5;
   for (int round = 0; round < kRounds; ++round) {
-    const Part part{share};
-    const Step step = step_from(with_rates, start, part);
-    const ElasticEnd end = stay_elastic(step);
-    const double log_level = std::log(end.level);
-    (log_level <= 0.0 ? low : high) = share;
+    const Step step = step_from(start, deps, {share});
+    const ElasticTrial trial = elastic_trial(step);
+    (trial.log_level <= 0.0 ? low : high) = share;
     double next = 0.5 * (low + high);
-    if (std::isfinite(log_level)) {
-      // By the strains of the increment.
-      const Vector4 rate = log_level_rate(with_rates, elastic_end(step, end));
-      const double slope = rate.dot(deps) / share, newton = share - log_level / slope;
-      if (std::abs(log_level) <= kOnSurface || high - low <= kOnSurface)
+    if (std::isfinite(trial.log_level)) {
+      const Vector4 rate = log_level_rate(end_of(step, trial));  // by the strains of the increment
+      const double slope = rate.dot(deps) / share, newton = share - trial.log_level / slope;
+      if (std::abs(trial.log_level) <= kOnSurface || high - low <= kOnSurface)
         return slope > 0.0 ? Part{share, -rate / slope} : Part{share};
       if (newton > low && newton < high) next = newton;
     }
@@ -602,70 +533,59 @@ ModifiedCamClay::Part ModifiedCamClay::elastic_part(const Increment& of, const P
   return {low};
 }
 
-// The deviator over the mean stress.
-ModifiedCamClay::Deviator ModifiedCamClay::ratio_of(const Point& point) {
-  const double by_p = 1.0 / point.p;
-  const Deviator& s = point.s;
-  return {by_p * s.value, by_p * s.a, by_p * s.b, by_p * (s.a_rate - s.a * point.log_p_rate),
-          by_p * (s.b_rate - s.b * point.log_p_rate)};
+Vector4 ModifiedCamClay::Point::ratio() const {
+  return std::exp(-log_p) * s;
 }
 
 // Richardson's extrapolation from one step and two of half the size: of second order.  It works on ln p and s/p, and
 // p_c follows, so that the answer is a stress on a surface.  Where the two differ much it is left out by degrees.
-ModifiedCamClay::Point ModifiedCamClay::extrapolated(const Increment& of, const Point& once,
-                                                     const Point& twice) const {
-  const Deviator r1 = ratio_of(once), r2 = ratio_of(twice);
-  const Deviator dr{r2.value - r1.value, r2.a - r1.a, r2.b - r1.b, r2.a_rate - r1.a_rate,
-                    r2.b_rate - r1.b_rate};
+ModifiedCamClay::Point ModifiedCamClay::extrapolated(const Point& once, const Point& twice) const {
+  const auto ratio_rate = [](const Point& point) {
+    return Matrix4(std::exp(-point.log_p) * (point.s_rate - point.s * point.log_p_rate.transpose()));
+  };
+  const Vector4 r2 = twice.ratio(), dr = r2 - once.ratio();
+  const Matrix4 r2_rate = ratio_rate(twice), dr_rate = r2_rate - ratio_rate(once);
   const double dp = twice.log_p - once.log_p;
   const Vector4 dp_rate = twice.log_p_rate - once.log_p_rate;
-  const double share = weight_of(square_difference(dp, dr.value));
+  const double share = weight_of(square_difference(dp, dr));
   const Vector4 share_rate =
-      -2.0 * share * share / (kFar * kFar) * (dp * dp_rate + dr.rate_along(dr.value, of));
+      -2.0 * share * share / (kFar * kFar) * (dp * dp_rate + dr_rate.transpose() * work_row(dr));
   Point end = twice;
   end.log_p += share * dp;
   end.log_p_rate += share * dp_rate + dp * share_rate;
-  const double p = end.p = twice.p * std::exp(share * dp);
-  end.s.value = p * (r2.value + share * dr.value);
-  end.s.a = p * (r2.a + share * dr.a);
-  end.s.b = p * (r2.b + share * dr.b);
-  end.s.a_rate = p * (r2.a_rate + share * dr.a_rate + dr.a * share_rate) + end.s.a * end.log_p_rate;
-  end.s.b_rate = p * (r2.b_rate + share * dr.b_rate + dr.b * share_rate) + end.s.b * end.log_p_rate;
-  end.p_c = size_through(end.s.value - p * unit_tensor());
+  const Vector4 r = r2 + share * dr;
+  const double p = std::exp(end.log_p);
+  end.s = p * r;
+  end.s_rate =
+      p * (r2_rate + share * dr_rate + dr * share_rate.transpose()) + end.s * end.log_p_rate.transpose();
+  end.log_c = std::log(size_through(end.s - p * unit_tensor()));
   end.shear += share * (twice.shear - once.shear);
   end.plastic_volume += share * (twice.plastic_volume - once.plastic_volume);
   return end;
 }
 
 // Elastic up to the surface; the rest once in one step, once in two.
-ModifiedCamClay::PlasticIncrement ModifiedCamClay::plastic_increment(const Increment& of, const Point& start,
+ModifiedCamClay::PlasticIncrement ModifiedCamClay::plastic_increment(const Point& start,
                                                                      const Vector4& deps) const {
-  const Part elastic = elastic_part(of, start, deps), rest{1.0 - elastic.share, -elastic.rate};
+  const Part elastic = elastic_part(start, deps), rest{1.0 - elastic.share, -elastic.rate};
   const Part half{0.5 * rest.share, 0.5 * rest.rate};
-  Point yield = elastic.share > 0.0 ? advance(of, start, elastic, kCritical) : start;
-  yield.place = place_at(yield.log_p - yield.log_c);
-  PlasticIncrement increment{{}, advance(of, yield, half, yield.place), {}, false};
+  Point yield = elastic.share > 0.0 ? advance(start, deps, elastic, kCritical) : start;
+  yield.angle = angle_at(yield.log_p - yield.log_c);
+  PlasticIncrement increment{{}, advance(yield, deps, half, yield.angle), {}, false};
   const auto& [once, middle, twice, smooth] = increment;
-  increment.twice = advance(of, middle, half, 2.0 * middle.place - yield.place);
-  increment.once = advance(of, yield, rest, twice.place);
+  increment.twice = advance(middle, deps, half, 2.0 * middle.angle - yield.angle);
+  increment.once = advance(yield, deps, rest, twice.angle);
   increment.smooth = once.status == PointStatus::yielded && twice.status == PointStatus::yielded &&
                      !(once.at_floor || middle.at_floor || twice.at_floor);
   return increment;
 }
 
-ModifiedCamClay::Increment ModifiedCamClay::increment_of(const PointIn<4>& in, bool rates) {
-  Vector4 e = deviator(in.deps);
-  e[3] *= 0.5;
-  return {deviator(in.sigma0), e, kVolumeRate.dot(in.deps), rates};
-}
-
-ModifiedCamClay::Point ModifiedCamClay::start_of(const PointIn<4>& in, const Increment& of) {
+ModifiedCamClay::Point ModifiedCamClay::start_of(const PointIn<4>& in) const {
   Point start;
-  start.s.value = of.s;
-  start.p = std::max(-mean_stress(in.sigma0), in.h0[kLeast]);
-  start.p_c = in.h0[kPressure];
-  start.log_p = std::log(start.p / start.p_c);
-  start.log_least = std::min(std::log(in.h0[kLeast] / start.p_c), start.log_p);
+  start.s = deviator(in.sigma0);
+  start.log_least = std::log(in.h0[kLeast]);
+  start.log_p = std::log(std::max(-mean_stress(in.sigma0), in.h0[kLeast]));
+  start.log_c = std::log(in.h0[kPressure]);
   start.v = in.h0[kVolume];
   return start;
 }
@@ -676,15 +596,15 @@ ModifiedCamClay::Point ModifiedCamClay::start_of(const PointIn<4>& in, const Inc
 double ModifiedCamClay::path_error(const PointIn<4>& in, const Vector4& sigma,
                                    std::span<const double> h) const {
   if (h[kShear] == in.h0[kShear] && h[kPlasticVolume] == in.h0[kPlasticVolume]) return 0.0;
-  const Increment of = increment_of(in, false);
-  const PlasticIncrement increment = plastic_increment(of, start_of(in, of), in.deps);
-  const auto& [once, middle, twice, smooth] = increment;
-  const double square =
-      square_difference(twice.log_p - once.log_p, twice.s.value / twice.p - once.s.value / once.p);
-  const double left = smooth ? 1.0 - weight_of(square) : 1.0, steps = left * std::sqrt(square) + square;
-  const Vector4 chord = sigma - in.sigma0, halfway = middle.s.value - middle.p * unit_tensor() - in.sigma0;
+  const PlasticIncrement increment = plastic_increment(start_of(in), in.deps);
+  const double square = square_difference(increment.twice.log_p - increment.once.log_p,
+                                          increment.twice.ratio() - increment.once.ratio());
+  const double left = increment.smooth ? 1.0 - weight_of(square) : 1.0,
+               steps = left * std::sqrt(square) + square;
+  const Vector4 chord = sigma - in.sigma0,
+                middle = increment.middle.s - std::exp(increment.middle.log_p) * unit_tensor() - in.sigma0;
   const double length = contract(chord, chord);
-  const Vector4 off = length > 0.0 ? Vector4(halfway - contract(halfway, chord) / length * chord) : halfway;
+  const Vector4 off = length > 0.0 ? Vector4(middle - contract(middle, chord) / length * chord) : middle;
   const double path = std::sqrt(contract(off, off) / contract(sigma, sigma));
   return std::isfinite(steps) && std::isfinite(path) ? std::max(steps, path) : 0.0;
 }
@@ -694,32 +614,30 @@ Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
   out.sigma = in.sigma0;
   out.D.setZero();
   out.status = PointStatus::elastic;
-  const Increment of = increment_of(in, true);
-  const bool small = !clay_.current_volume || std::abs(of.volume) < kMostStrain;
+  const bool small = !clay_.current_volume || std::abs(kVolumeRate.dot(in.deps)) < kMostStrain;
   if (!(in.h0[kPressure] > 0.0 && in.h0[kLeast] > 0.0 && small)) return Outcome::cut_step;
-  const Point start = start_of(in, of);
-  const Part whole;
+  const Point start = start_of(in);
+  const ElasticTrial trial = elastic_trial(step_from(start, in.deps, {}));
   Point end;
-  if (stay_elastic(step_from(of, start, whole)).level <= 1.0 + kOnSurface) {
-    end = advance(of, start, whole, kCritical);
+  if (trial.log_level <= kOnSurface) {
+    end = advance(start, in.deps, {}, kCritical);
   } else {
-    const PlasticIncrement increment = plastic_increment(of, start, in.deps);
-    end = increment.smooth ? extrapolated(of, increment.once, increment.twice) : increment.twice;
-    out.h1[kPressure] = end.p_c;
+    const PlasticIncrement increment = plastic_increment(start, in.deps);
+    end = increment.smooth ? extrapolated(increment.once, increment.twice) : increment.twice;
+    out.h1[kPressure] = std::exp(end.log_c);
     out.h1[kShear] = std::max(in.h0[kShear] + end.shear, in.h0[kShear]);
     out.h1[kPlasticVolume] += end.plastic_volume;
   }
-  if (!(end.log_p < kMostGrowth && std::isfinite(end.p_c) && end.s.value.allFinite() &&
-        std::isfinite(end.s.b) && end.s.a_rate.allFinite() && end.s.b_rate.allFinite() &&
-        end.log_p_rate.allFinite())) {
+  const double p = std::exp(end.log_p);
+  if (!(end.log_p < kMostGrowth && end.s.allFinite() && end.s_rate.allFinite() && end.log_p_rate.allFinite() &&
+        std::isfinite(end.log_c))) {
     std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
     return Outcome::cut_step;
   }
   out.h1[kVolume] = end.v;
-  if (!in.deps.isZero(0.0)) out.sigma = end.s.value - end.p * unit_tensor();
-  out.D = of.s * end.s.a_rate.transpose() + of.e * end.s.b_rate.transpose() -
-          end.p * unit_tensor() * end.log_p_rate.transpose() + end.s.b * deviatoric_projection();
-  if (end.at_floor) out.D.topLeftCorner<3, 3>().array() += kFloorStiffness * end.p / end.kappa;
+  if (!in.deps.isZero(0.0)) out.sigma = end.s - p * unit_tensor();
+  out.D = end.s_rate - p * unit_tensor() * end.log_p_rate.transpose();
+  if (end.at_floor) out.D.topLeftCorner<3, 3>().array() += kFloorStiffness * p / end.kappa;
   out.status = end.status;
   return Outcome::ok;
 }

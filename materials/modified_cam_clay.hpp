@@ -63,37 +63,27 @@ class ModifiedCamClay final : public SolidLaw,
   struct Slope {
     double M, by_lode;  // M and its derivative with respect to sin(3 theta)
   };
-  struct Increment;
-  struct Deviator;
   struct Point;
   struct Part;
   struct Step;
-  struct Trial;
   struct OnSurface;
-  struct ElasticEnd;
+  struct ElasticTrial;
   struct PlasticIncrement;
   Slope slope(double lode) const;
-  Slope slope_of(const Vector4& s, double q) const;
   double size_through(const Vector4& sigma) const;
-  static Increment increment_of(const PointIn<4>& in, bool rates);
-  static Point start_of(const PointIn<4>& in, const Increment& of);
-  Step step_from(const Increment& of, const Point& point, const Part& part) const;
-  Trial trial_of(const Step& step, double growth, double exponential) const;
-  ElasticEnd stay_elastic(const Step& step) const;
-  Point elastic_end(const Step& step, const ElasticEnd& elastic) const;
-  OnSurface on_surface(const Step& step, double place) const;
+  Step step_from(const Point& point, const Vector4& deps, const Part& part) const;
+  void set_trial(const Step& step, OnSurface& at) const;
+  OnSurface on_surface(const Step& step, double angle) const;
   OnSurface return_to_surface(const Step& step, double log_trial, double guess) const;
-  Vector4 direct_G_rate(const Step& step, double G) const;
-  static double left_of_trial(const OnSurface& at);
+  Point elastic_end(const Step& step, const OnSurface& trial) const;
   Point plastic_end(const Step& step, const OnSurface& at) const;
-  void set_plastic_rates(const Step& step, const OnSurface& at, double left, Point& end) const;
-  Point advance(const Increment& of, const Point& point, const Part& part, double guess) const;
-  Vector4 log_level_rate(const Increment& of, const Point& point) const;
-  bool yields_at_once(const Increment& of, const Point& start, const Vector4& deps) const;
-  Part elastic_part(const Increment& of, const Point& start, const Vector4& deps) const;
-  PlasticIncrement plastic_increment(const Increment& of, const Point& start, const Vector4& deps) const;
-  static Deviator ratio_of(const Point& point);
-  Point extrapolated(const Increment& of, const Point& once, const Point& twice) const;
+  ElasticTrial elastic_trial(const Step& step) const;
+  Point advance(const Point& point, const Vector4& deps, const Part& part, double guess) const;
+  Vector4 log_level_rate(const Point& point) const;
+  Part elastic_part(const Point& start, const Vector4& deps) const;
+  PlasticIncrement plastic_increment(const Point& start, const Vector4& deps) const;
+  Point extrapolated(const Point& once, const Point& twice) const;
+  Point start_of(const PointIn<4>& in) const;
 
   CamClay clay_;
   double by_bulk_;            // G over the bulk modulus
