@@ -3,19 +3,13 @@
 import assert from "node:assert/strict";
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
-import {createRequire} from "node:module";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 
+import {find_browser, SOFTWARE_GL} from "./browser.mjs";
+
 const [program, source, work, modules] = process.argv.slice(2);
-const chromium_path = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => fs.existsSync(file));
-let chromium;
-try {
-  chromium = createRequire(pathToFileURL((modules || process.cwd()) + "/"))("playwright-core").chromium;
-} catch (error) {
-  console.log("playwright-core is missing: " + error.message);
-}
-if (!chromium || !chromium_path) process.exit(77);
+const launch = find_browser(modules);
 
 fs.rmSync(work, {recursive: true, force: true});
 fs.mkdirSync(work, {recursive: true});
@@ -43,7 +37,7 @@ function csv(name) {
 }
 const close = (a, b, what) => assert.ok(Math.abs(a - b) <= 1e-9 * Math.max(Math.abs(a), Math.abs(b)) + 1e-300, `${what}: ${a}, table ${b}`);
 
-const browser = await chromium.launch({executablePath: chromium_path, args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]});
+const browser = await launch(SOFTWARE_GL);
 const complaints = [];
 async function open(name, hash = "") {
   const page = await browser.newPage({viewport: {width: 1400, height: 900}});

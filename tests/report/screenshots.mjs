@@ -1,11 +1,12 @@
 // Pictures of docs/gallery.md: the fields of each page, in Debian's Chromium.
 //   node screenshots.mjs PAGES OUT NODE_MODULES
-import {createRequire} from "node:module";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 
+import {find_browser, SOFTWARE_GL} from "./browser.mjs";
+
 const [pages, out, modules] = process.argv.slice(2);
-const {chromium} = createRequire(pathToFileURL(modules + "/"))("playwright-core");
+const launch = find_browser(modules);
 // Page: field, state (0 is the first; none: the last), diagram.
 const shown = {
   footing: {field: "displacement", deformed: true}, anchored_excavation: {field: "displacement", diagram: "bending_moment"},
@@ -13,7 +14,7 @@ const shown = {
   locking: {field: "mean_stress"}, culvert_slipping: {field: "stress_yy", diagram: "bending_moment"}, pile: {field: "stress_xy"},
 };
 
-const browser = await chromium.launch({executablePath: "/usr/bin/chromium", args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"]});
+const browser = await launch(SOFTWARE_GL);
 for (const [name, look] of Object.entries(shown)) {
   const page = await browser.newPage({viewport: {width: name === "locking" ? 1100 : 900, height: 800}});
   await page.goto(pathToFileURL(path.join(pages, `${name}.html`)).href);

@@ -1,22 +1,15 @@
 // The site of scripts/docs in a browser, from disk: no request leaves it, no error, equations are drawn, search finds.
 //   node site.mjs SITE [NODE_MODULES]     77: no Chromium or no playwright-core
 import assert from "node:assert/strict";
-import fs from "node:fs";
-import {createRequire} from "node:module";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 
-const [site, modules] = process.argv.slice(2);
-const chromium_path = ["/usr/bin/chromium", "/usr/bin/chromium-browser"].find((file) => fs.existsSync(file));
-let chromium;
-try {
-  chromium = createRequire(pathToFileURL((modules || process.cwd()) + "/"))("playwright-core").chromium;
-} catch (error) {
-  console.log("playwright-core is missing: " + error.message);
-}
-if (!chromium || !chromium_path) process.exit(77);
+import {find_browser} from "./browser.mjs";
 
-const browser = await chromium.launch({executablePath: chromium_path, args: ["--no-sandbox"]});
+const [site, modules] = process.argv.slice(2);
+const launch = find_browser(modules);
+
+const browser = await launch();
 const complaints = [];
 const address = (name) => pathToFileURL(path.join(site, name.split("?")[0])).href + name.slice(name.split("?")[0].length);
 async function open(name) {
