@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <utility>
+
+#include "solvers/frontal.hpp"
 
 namespace sage {
 
@@ -76,7 +80,8 @@ void Frontal::factorise_matrix() {
   early_.stop();
   if (given_back_) take_room();
   if (once()) {
-    find_sharing();
+    take_sharing(fronts_that_share());
+    place_factors();
     report_.memory_bytes = memory_bytes();
   }
   const std::span<const double> maxima = row_maxima();
@@ -95,7 +100,7 @@ void Frontal::factorise_matrix() {
     assemble(f, lanes_[0]);
     if (once()) give_back_borders(f);
     if (f != tree_.kept) eliminate_together(f);
-    finish_shared_border(f);
+    finish_borders(f, f + 1, true);
   }
   take_report();
   if (once()) give_back_rest();
@@ -106,8 +111,9 @@ void Frontal::analyse_matrix(const EquationGraph& graph) {
   tree_ = make_front_tree(graph, matrix(), kLeafEquations, kernels_->width, border_equations(), threads());
   early_.stop();
   factors_ = AlignedArray(static_cast<std::size_t>(tree_.factor_terms));
-  prepare_sharing();
+  take_sharing(fronts_that_may_share());
   touch_subtrees_early();
+  take_sharing({});
   list_entries(matrix(), tree_);
   place_factors();
   widest_ = 0;
@@ -131,20 +137,31 @@ void Frontal::touch_subtrees_early() {
   if (threads() == 1 || tree_.subtrees.empty()) return;
   std::int64_t terms = 0;
   for (int f = 0; f < tree_.subtrees.back().end; ++f)
-    if (!may_share(f)) terms += terms_of(f);
+    if (has_own_factors(f)) terms += terms_of(f);
   early_.start(factors_.data(), static_cast<std::size_t>(terms) * sizeof(double));
+}
+
+void Frontal::take_sharing(std::vector<int> first_of) {
+  first_of_ = std::move(first_of);
+  if (!first_of_.empty()) return;
+  first_of_.resize(tree_.fronts.size());
+  std::iota(first_of_.begin(), first_of_.end(), 0);
 }
 
 void Frontal::place_factors() {
   std::int64_t next = 0;
   int pivots = 0;
+  report_.repeated_equations = 0;
   first_pivot_.resize(tree_.fronts.size());
   for (int f = 0; at(f) < tree_.fronts.size(); ++f) {
     Front& front = tree_.fronts[at(f)];
-    const auto first = at(same_as(f));
+    const auto first = at(first_of_[at(f)]);
     front.arms = has_own_factors(f) ? next : tree_.fronts[first].arms;
     first_pivot_[at(f)] = has_own_factors(f) ? pivots : first_pivot_[first];
-    if (!has_own_factors(f)) continue;
+    if (!has_own_factors(f)) {
+      report_.repeated_equations += front.pivots;
+      continue;
+    }
     next += terms_of(f);
     pivots += front.pivot_tiles * kTile;
   }
@@ -262,14 +279,14 @@ void Frontal::take_report() {
 }
 
 double* Frontal::border(int f, Lane& lane) {
-  if (double* const shared = shared_border(f)) return shared;
+  if (double* const lent = lent_border(f)) return lent;
   const Front& front = tree_.fronts[at(f)];
   return (front.shared ? shared_ : lane.workspace).data() + front.border_at;
 }
 
 const double* Frontal::border_of_child(int child, Lane& lane) {
-  const double* const shared = wait_for_shared_border(child);
-  return shared != nullptr ? shared : border(child, lane);
+  const double* const lent = read_border(child);
+  return lent != nullptr ? lent : border(child, lane);
 }
 
 void Frontal::eliminate_subtree(const Subtree& subtree, Lane& lane) {
@@ -278,10 +295,10 @@ void Frontal::eliminate_subtree(const Subtree& subtree, Lane& lane) {
       if (!has_own_factors(f)) continue;
       assemble(f, lane);
       if (f != tree_.kept) eliminate(f, lane);
-      finish_shared_border(f);
+      finish_borders(f, f + 1, true);
     }
   } catch (...) {
-    give_up_shared_borders(subtree.begin, subtree.end);  // others may wait for one
+    finish_borders(subtree.begin, subtree.end, false);  // others may wait for one
     throw;
   }
 }
@@ -290,7 +307,6 @@ void Frontal::assemble(int f, Lane& lane) {
   const Front& front = tree_.fronts[at(f)];
   double* terms = factors_.data() + front.arms;
   std::fill_n(terms, (traits().symmetric ? 1 : 2) * front.arm_terms(), 0.0);
-  make_shared_border(f);
   std::fill_n(border(f, lane), front.border_terms(), 0.0);
   const double* value = matrix().value().data();
   const EntryRange& range = tree_.entries_of[at(f)];
@@ -298,9 +314,9 @@ void Frontal::assemble(int f, Lane& lane) {
   for (auto s = at(range.begin); s < at(range.end); ++s) terms[list.target[s]] = value[list.source[s]];
   const Arms a = arms(f, lane);
   for (const int child : tree_.children.of(f)) {
-    const int like = same_as(child);
+    const int like = first_of_[at(child)];
     add_border(tree_.fronts[at(child)], border_of_child(like, lane), a, border(f, lane));
-    release_shared_border(like);
+    release_border(like);
   }
 }
 
@@ -491,6 +507,13 @@ void Frontal::border_matrix(double* S) const {
       S[std::ptrdiff_t{column(j)} * front.pivots + column(i)] =
           terms[mirrored ? arm_target(front, j, i) : arm_target(front, i, j)];
     }
+}
+
+std::unique_ptr<LinearSolver> make_frontal() {
+  return std::make_unique<Frontal>(SolverTraits{"frontal", false});
+}
+std::unique_ptr<LinearSolver> make_frontal_ldlt() {
+  return std::make_unique<Frontal>(SolverTraits{"frontal_ldlt", true});
 }
 
 }  // namespace sage

@@ -47,29 +47,29 @@ class Frontal : public MatrixSolver, public BorderSolver {
  protected:
   void analyse_matrix(const EquationGraph& graph) override;
 
-  // Fronts that share factors and border matrices with others: repeated_fronts.cpp.  This solver itself has none.
-  virtual void prepare_sharing() {}  // a new tree, whose values are not known yet
-  virtual bool may_share(int /*front*/) const {
-    return false;
-  }                                                       // may turn out to have the factors of an earlier one
-  virtual void find_sharing() {}                          // the values are there
-  virtual int same_as(int front) const { return front; }  // the first front with its factors
-  virtual void make_shared_border(int /*front*/) {}       // before it is assembled
-  virtual double* shared_border(int /*front*/) { return nullptr; }  // nullptr: its place is in the workspace
-  virtual void finish_shared_border(int /*front*/) {}
-  // Once it is finished, for one of the fronts that take it; nullptr as above.
-  virtual const double* wait_for_shared_border(int /*front*/) { return nullptr; }
-  virtual void release_shared_border(int /*front*/) {}                // one of them has taken it
-  virtual void give_up_shared_borders(int /*begin*/, int /*end*/) {}  // an error: they will not be finished
+  // Fronts that share factors and border matrices with others (repeated_fronts.cpp).  This solver itself has none.
+  // Of every front the first one that may turn out to have its factors, for a new tree, whose values are not known yet;
+  // and, once they are, the first one that has them.  Empty: all have their own.
+  virtual std::vector<int> fronts_that_may_share() { return {}; }
+  virtual std::vector<int> fronts_that_share() { return {}; }
+  // Memory for the border matrix of a front where several others read it; nullptr: its place is in the workspace.
+  virtual double* lent_border(int /*front*/) { return nullptr; }
+  // Such borders of the fronts begin .. end - 1 are complete, or, after an error, will never be.
+  virtual void finish_borders(int /*begin*/, int /*end*/, bool /*complete*/) {}
+  // Waits until it is complete, for one of its readers; nullptr as above.  Then that one has read it.
+  virtual const double* read_border(int /*front*/) { return nullptr; }
+  virtual void release_border(int /*front*/) {}
 
   bool once() const { return settings().one_factorisation; }
   const FrontTree& tree() const { return tree_; }
-  // Where the factors of every front stand: one after the other, those that are shared where the first front has them.
-  void place_factors();
 
  private:
   int threads() const { return std::max(1, settings().threads); }
-  bool has_own_factors(int front) const { return same_as(front) == front; }
+  // first_of: as above.
+  void take_sharing(std::vector<int> first_of);
+  bool has_own_factors(int front) const { return first_of_[front] == front; }
+  // Where the factors of every front stand: one after the other, those that are shared where the first front has them.
+  void place_factors();
 
   // Their room is needed first.  That of the largest fronts comes when the workspaces of the subtrees have gone: the
   // run is largest then.  No more than what there is if all fronts of one shape turn out to be the same.
@@ -161,6 +161,7 @@ class Frontal : public MatrixSolver, public BorderSolver {
   EarlyPages early_;  // of factors_
   std::vector<Lane> lanes_;
   std::unique_ptr<ThreadPool> pool_;
+  std::vector<int> first_of_;     // of every front the first one with its factors
   std::vector<int> first_pivot_;  // of every front, in reciprocal_
   std::vector<double> reciprocal_;
   bool given_back_ = false;

@@ -1,6 +1,8 @@
 // Fronts that repeat.  Where an earlier front has the same terms in the same places, and the same fronts below it, both
 // have the same factors and border matrices to the last bit: they are made and kept once.  Meshes of equal elements in
 // rows have many such fronts, all others next to none.
+#include "solvers/repeated_fronts.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <bit>
@@ -12,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "solvers/frontal.hpp"
 #include "solvers/frontal_solver.hpp"
 
 namespace sage {
@@ -129,23 +130,26 @@ bool saves_much(const FrontTree& tree, std::span<const int> first) {
 
 // For matrices that are factorised once: where points yield, fronts soon differ.  They are used where they save a tenth
 // of the factors at least.
-class TwinFronts {
+class RepeatedFronts {
  public:
-  // Of a new tree, whose values are not known yet: no front has a twin.
-  void analyse(const FrontTree& tree, bool wanted);
-  // Needs the lists of entries.
-  void find(const FrontTree& tree, std::span<const double> values);
-
-  // The first front with the factors of this one; itself where it is the first.
-  int first(int front) const { return first_[front]; }
-  std::span<const int> first() const { return first_; }
-  bool is_first(int front) const { return first(front) == front; }
-  // Whether it may be found to be the twin of an earlier one.
-  bool may_repeat(int front) const { return !shape_.empty() && shape_[front] != front; }
+  // Of a new tree, whose values are not known yet.
+  void analyse(const FrontTree& tree, bool wanted) {
+    shape_.clear();
+    if (wanted) shape_ = fronts_of_one_shape(tree);
+    if (!saves_much(tree, shape_)) shape_.clear();
+  }
+  // Of every front the first one of its shape; empty: there is no use in looking for repetitions.
+  const std::vector<int>& shapes() const { return shape_; }
+  // Of every front the first one with its factors.  Needs the lists of entries.
+  std::vector<int> find(const FrontTree& tree, std::span<const double> values) const {
+    std::vector<int> first(tree.fronts.size());
+    if (!shape_.empty()) first = fronts_of_one_value(tree, shape_, values);
+    if (shape_.empty() || !saves_much(tree, first)) std::iota(first.begin(), first.end(), 0);
+    return first;
+  }
 
  private:
-  std::vector<int> first_;  // of every front
-  std::vector<int> shape_;  // of every front the first one of its shape; empty: there is no use in looking
+  std::vector<int> shape_;
 };
 
 // Border matrices that more than one front takes.  They outlive the place that a border has in a workspace, and who
@@ -156,19 +160,17 @@ class LentBorders {
   void plan(const FrontTree& tree, std::span<const int> first);
   bool lends(int front) const { return !slot_.empty() && slot_[front] >= 0; }
 
-  // Room for the border of a front that lends; who has filled it publishes it.
-  double* make(int front, std::size_t terms);
-  double* room(int front) { return border_of(front).terms.data(); }
-  void publish(int front);
-  // The border once it is published; nullptr where its maker has given it up.
+  // Room for the border of a front that lends, zeroed by nobody; who has filled it finishes it.
+  double* room(int front, std::size_t terms);
+  // complete: it may be read.  Otherwise, unless it is complete already, it will not come.
+  void finish(int front, bool complete);
+  // The border once it is complete; nullptr where its maker has given it up.
   const double* wait_for(int front);
   // The last of those that take it frees it; after an error the rest goes with the next plan().
   void release(int front);
-  // What the fronts begin .. end - 1 lend and have not published will not come.
-  void give_up(int begin, int end);
 
  private:
-  enum State { kPending, kPublished, kGivenUp };
+  enum State { kPending, kComplete, kGivenUp };
   struct Border {
     AlignedArray terms;
     std::atomic<int> state{kPending}, takers{0};
@@ -178,20 +180,6 @@ class LentBorders {
   std::vector<int> slot_;  // of every front, -1 = lends none; empty: nobody does
   std::vector<Border> borders_;
 };
-
-void TwinFronts::analyse(const FrontTree& tree, bool wanted) {
-  first_.resize(tree.fronts.size());
-  std::iota(first_.begin(), first_.end(), 0);
-  shape_.clear();
-  if (wanted) shape_ = fronts_of_one_shape(tree);
-  if (!saves_much(tree, shape_)) shape_.clear();
-}
-
-void TwinFronts::find(const FrontTree& tree, std::span<const double> values) {
-  if (shape_.empty()) return;
-  first_ = fronts_of_one_value(tree, shape_, values);
-  if (!saves_much(tree, first_)) std::iota(first_.begin(), first_.end(), 0);
-}
 
 void LentBorders::plan(const FrontTree& tree, std::span<const int> first) {
   std::vector<int> takers(first.size(), 0);
@@ -208,20 +196,23 @@ void LentBorders::plan(const FrontTree& tree, std::span<const int> first) {
   if (lenders == 0) slot_.clear();
 }
 
-double* LentBorders::make(int front, std::size_t terms) {
-  border_of(front).terms = AlignedArray(terms);
-  return room(front);
+double* LentBorders::room(int front, std::size_t terms) {
+  AlignedArray& room = border_of(front).terms;
+  if (room.size() == 0) room = AlignedArray(terms);
+  return room.data();
 }
 
-void LentBorders::publish(int front) {
-  border_of(front).state = kPublished;
-  border_of(front).state.notify_all();
+void LentBorders::finish(int front, bool complete) {
+  std::atomic<int>& state = border_of(front).state;
+  if (state != kPending) return;
+  state = complete ? kComplete : kGivenUp;
+  state.notify_all();
 }
 
 const double* LentBorders::wait_for(int front) {
   Border& border = border_of(front);
   border.state.wait(kPending);
-  return border.state == kPublished ? border.terms.data() : nullptr;
+  return border.state == kComplete ? border.terms.data() : nullptr;
 }
 
 void LentBorders::release(int front) {
@@ -229,74 +220,56 @@ void LentBorders::release(int front) {
   if (--border.takers == 0) border.terms = {};
 }
 
-void LentBorders::give_up(int begin, int end) {
-  for (int f = begin; f < end; ++f) {
-    if (!lends(f) || border_of(f).state != kPending) continue;
-    border_of(f).state = kGivenUp;
-    border_of(f).state.notify_all();
-  }
-}
-
 // The thread that was to make a border has given up, with an error of its own that comes first.
 struct NoBorder {};
 
-class FrontalWithRepeats final : public Frontal, public RepeatedParts {
+class FrontalWithRepeats final : public Frontal {
  public:
   explicit FrontalWithRepeats(SolverTraits solver_traits) : Frontal(solver_traits) {}
 
-  void use_repeated_parts(bool wanted) override { wanted_ = wanted; }
-  int repeated_equations() const override { return repeated_equations_; }
-
  protected:
-  void prepare_sharing() override {
-    twins_.analyse(tree(), once() && wanted_);
+  std::vector<int> fronts_that_may_share() override {
     lent_ = {};
-    repeated_equations_ = 0;
+    repeated_.analyse(tree(), once());
+    return repeated_.shapes();
   }
-  bool may_share(int front) const override { return twins_.may_repeat(front); }
-  void find_sharing() override {
-    twins_.find(tree(), matrix().value());
-    lent_.plan(tree(), twins_.first());
-    place_factors();
-    repeated_equations_ = 0;
-    for (int f = 0; at(f) < tree().fronts.size(); ++f)
-      if (!twins_.is_first(f)) repeated_equations_ += tree().fronts[at(f)].pivots;
+  std::vector<int> fronts_that_share() override {
+    std::vector<int> first = repeated_.find(tree(), matrix().value());
+    lent_.plan(tree(), first);
+    return first;
   }
-  int same_as(int front) const override { return twins_.first(front); }
 
-  void make_shared_border(int front) override {
-    if (lent_.lends(front))
-      lent_.make(front, static_cast<std::size_t>(tree().fronts[at(front)].border_terms()));
+  double* lent_border(int front) override {
+    return lent_.lends(front)
+               ? lent_.room(front, static_cast<std::size_t>(tree().fronts[at(front)].border_terms()))
+               : nullptr;
   }
-  double* shared_border(int front) override { return lent_.lends(front) ? lent_.room(front) : nullptr; }
-  void finish_shared_border(int front) override {
-    if (lent_.lends(front)) lent_.publish(front);
+  void finish_borders(int begin, int end, bool complete) override {
+    for (int front = begin; front < end; ++front)
+      if (lent_.lends(front)) lent_.finish(front, complete);
   }
-  const double* wait_for_shared_border(int front) override {
+  const double* read_border(int front) override {
     if (!lent_.lends(front)) return nullptr;
     const double* const terms = lent_.wait_for(front);
     if (terms == nullptr) throw NoBorder();
     return terms;
   }
-  void release_shared_border(int front) override {
+  void release_border(int front) override {
     if (lent_.lends(front)) lent_.release(front);
   }
-  void give_up_shared_borders(int begin, int end) override { lent_.give_up(begin, end); }
 
  private:
-  bool wanted_ = true;
-  TwinFronts twins_;
+  RepeatedFronts repeated_;
   LentBorders lent_;
-  int repeated_equations_ = 0;
 };
 
 }  // namespace
 
-std::unique_ptr<LinearSolver> make_frontal() {
-  return std::make_unique<FrontalWithRepeats>(SolverTraits{"frontal", false});
-}
-std::unique_ptr<LinearSolver> make_frontal_ldlt() {
-  return std::make_unique<FrontalWithRepeats>(SolverTraits{"frontal_ldlt", true});
+SolverFactory frontal_with_repeats(bool symmetric) {
+  return [symmetric]() -> std::unique_ptr<LinearSolver> {
+    return std::make_unique<FrontalWithRepeats>(symmetric ? SolverTraits{"frontal_ldlt", true}
+                                                          : SolverTraits{"frontal", false});
+  };
 }
 
 }  // namespace sage

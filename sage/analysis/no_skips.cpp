@@ -1,7 +1,6 @@
 // In place of the sources in skips/, where the program is built without them.
 #include "sage/analysis/stepping_policy.hpp"
 #include "sage/analysis/system.hpp"
-#include "sage/core/solver_extensions.hpp"
 
 namespace sage {
 
@@ -14,8 +13,9 @@ std::unique_ptr<SteppingPolicy> make_stepping_policy(const Skips& /*skips*/) {
   return std::make_unique<SteppingPolicy>();
 }
 
-void set_up_solver(const Skips& /*skips*/, LinearSolver& solver) {
-  if (auto* repeated = dynamic_cast<RepeatedParts*>(&solver)) repeated->use_repeated_parts(false);
+std::unique_ptr<LinearSolver> make_solver(const Skips& /*skips*/, const SolverEntry& entry,
+                                          bool /*one_factorisation*/) {
+  return entry.make();
 }
 
 }  // namespace sage

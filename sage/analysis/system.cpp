@@ -51,13 +51,12 @@ const SolverEntry* System::choose_solver(int equations, bool symmetric) const {
 }
 
 std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry, bool one_factorisation) const {
-  auto solver = entry.make();
+  auto solver = make_solver(settings_.skips, entry, one_factorisation);
   solver->configure({.threads = settings_.threads,
                      .kernels = settings_.kernels,
                      .refinement_steps = settings_.refinement,
                      .one_factorisation = one_factorisation,
                      .stop_asked = settings_.stop_asked});
-  set_up_solver(settings_.skips, *solver);
   return solver;
 }
 

@@ -77,7 +77,7 @@ class System {
   std::optional<Last> last_;  // what the solver reported before it was released
 };
 
-// A solver that was just made leaves out what the skips allow.
-void set_up_solver(const Skips& skips, LinearSolver& solver);
+// The solver of an entry, or one that leaves out what the skips allow.  one_factorisation: as in SolverSettings.
+std::unique_ptr<LinearSolver> make_solver(const Skips& skips, const SolverEntry& entry, bool one_factorisation);
 
 }  // namespace sage

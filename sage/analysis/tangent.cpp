@@ -14,7 +14,6 @@ void Tangent::analyse(std::unique_ptr<LinearSolver> solver, int equations, Eleme
   state_ = State::empty;
   solver_ = std::move(solver);
   parallel_ = dynamic_cast<ParallelAssembly*>(solver_.get());
-  repeated_ = dynamic_cast<const RepeatedParts*>(solver_.get());
   elastic_.analyse(elements);
   sizes_.take(dynamic_cast<const KeptMatrix*>(solver_.get()), equations);
   solver_->analyse(equations, std::move(elements));
@@ -56,9 +55,9 @@ void Tangent::factorise(WorkCounters& work) {
   Profile::Scope scope(work.profile, phase::kFactors);
   ++work.factorisations;
   solver_->factorise();
-  scope.add_operations(solver_->report().factor_operations);
-  if (repeated_ != nullptr)
-    work.twin_equations = std::max(work.twin_equations, long{repeated_->repeated_equations()});
+  const FactorReport report = solver_->report();
+  scope.add_operations(report.factor_operations);
+  work.twin_equations = std::max(work.twin_equations, long{report.repeated_equations});
   state_ = State::factorised;
 }
 

@@ -98,9 +98,7 @@ class Tangent {
   State state_ = State::empty;
   bool changed_ = true;
   std::unique_ptr<LinearSolver> solver_;
-  // What the solver offers beyond a solution; nullptr: it does not.
-  ParallelAssembly* parallel_ = nullptr;
-  const RepeatedParts* repeated_ = nullptr;
+  ParallelAssembly* parallel_ = nullptr;  // nullptr: the solver does not offer it
   const Eigen::VectorXd* rate_ = nullptr;
   Eigen::VectorXd coupling_;
   ElasticMatrices elastic_;

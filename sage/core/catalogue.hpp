@@ -200,11 +200,16 @@ inline bool can_replace(const ElementEntry* wanted, const ElementEntry& other) {
                                   other.card_nodes <= wanted->card_nodes);
 }
 
+using SolverFactory = std::function<std::unique_ptr<LinearSolver>()>;
+
 struct SolverEntry {
   std::string name;
   std::string summary;
   bool symmetric = false;
-  std::function<std::unique_ptr<LinearSolver>()> make;
+  SolverFactory make;
+  // The same solver, with the same answers to the last bit, which eliminates and stores repeated parts of a matrix once
+  // (the skip 'twins'); for a matrix that is factorised once.  Empty: there is none.
+  SolverFactory make_with_repeats{};
 };
 
 // A value: copies share their entries until one of them adds.

@@ -36,6 +36,7 @@ struct FactorReport {
   double growth = -1.0;                // largest term of the factors / largest term of K
   double backward_error = -1.0;        // largest |b - K x| / (||K|| |x| + |b|) of the refined answers so far
   int negative_pivots = -1;            // LDL^T only
+  int repeated_equations = 0;          // that share the factors of others (SolverEntry::make_with_repeats)
   std::int64_t factor_entries = -1;  // stored terms of the factors; fewer after factorise() where parts repeat
   std::string_view kernels = {};     // name of the set of loops in use; empty: the solver has no choice
   std::size_t memory_bytes = 0;

@@ -79,17 +79,4 @@ class BorderSolver {
   ~BorderSolver() = default;
 };
 
-// Repeated parts of the matrix are eliminated and stored once.  Answers do not depend on it, to the last bit.
-class RepeatedParts {
- public:
-  // Whether a factorise() that is expected to be the only one may use them, from the next analyse() on; by default it
-  // may.
-  virtual void use_repeated_parts(bool wanted) = 0;
-  // Equations that share the factors of others, of the last factorise().
-  virtual int repeated_equations() const = 0;
-
- protected:
-  ~RepeatedParts() = default;
-};
-
 }  // namespace sage

@@ -38,6 +38,8 @@ def check_symbols():
         classes |= set(re.findall(r"^class (\w+)[^;]*\{", header.read_text(), re.M))
     check(len(classes) >= 3, "no classes in sage/analysis/skips")
     whole, plain = symbols(SAGEFE), symbols(PLAIN)
+    for program, wanted in ((whole, True), (plain, False)):
+        check(("FrontalWithRepeats" in program) == wanted, "the solver with repeats is in the wrong program")
     found = [c for c in classes if f"sage::{c}::" in plain or f"for sage::{c}\n" in plain]
     check(not found, f"the plain program holds {', '.join(found)}")
     held = [c for c in classes if f"sage::{c}::" in whole or f"for sage::{c}\n" in whole]

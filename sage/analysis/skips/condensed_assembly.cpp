@@ -19,9 +19,10 @@ void CondensedAssembly::enter_stage(const Activity& activity, const Eigen::Vecto
       condense_if_it_pays(groups_, equations_.dofs(), dof_map_.dofs(), increments, scene_->symmetric, make);
   if (!condensation_) return;
   rate_ = rate;
-  scope.add_operations(condensation_->matrix().report().factor_operations);
+  const FactorReport report = condensation_->matrix().report();
+  scope.add_operations(report.factor_operations);
   work_->condensed = condensation_->matrix().condensed();
-  work_->twin_equations = std::max(work_->twin_equations, long{condensation_->matrix().repeated_equations()});
+  work_->twin_equations = std::max(work_->twin_equations, long{report.repeated_equations});
   equations_.keep(condensation_->matrix().kept());
   number_elements();
 }

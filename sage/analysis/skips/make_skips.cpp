@@ -2,7 +2,6 @@
 #include "sage/analysis/skips/condensed_assembly.hpp"
 #include "sage/analysis/skips/stepping_skips.hpp"
 #include "sage/analysis/system.hpp"
-#include "sage/core/solver_extensions.hpp"
 
 namespace sage {
 
@@ -17,8 +16,10 @@ std::unique_ptr<SteppingPolicy> make_stepping_policy(const Skips& skips) {
   return std::make_unique<SteppingSkips>(skips);
 }
 
-void set_up_solver(const Skips& skips, LinearSolver& solver) {
-  if (auto* repeated = dynamic_cast<RepeatedParts*>(&solver)) repeated->use_repeated_parts(skips.twins);
+std::unique_ptr<LinearSolver> make_solver(const Skips& skips, const SolverEntry& entry,
+                                          bool one_factorisation) {
+  const bool with_repeats = skips.twins && one_factorisation && entry.make_with_repeats;
+  return with_repeats ? entry.make_with_repeats() : entry.make();
 }
 
 }  // namespace sage

@@ -62,11 +62,6 @@ bool RegionMatrix::border_pays(int increments, bool symmetric) const {
   return region + increments * 2.0 * dense < increments * whole;
 }
 
-int RegionMatrix::repeated_equations() const {
-  const auto* repeated = dynamic_cast<const RepeatedParts*>(solver_.get());
-  return repeated != nullptr ? repeated->repeated_equations() : 0;
-}
-
 void RegionMatrix::factorise() {
   solver_->clear();
   int element = 0;

@@ -29,7 +29,6 @@ class RegionMatrix {
   int condensed() const { return static_cast<int>(condensed_.size()); }
   const Eigen::MatrixXd& S() const { return S_; }
   FactorReport report() const { return solver_->report(); }
-  int repeated_equations() const;
   int dofs() const { return dofs_; }         // of the model
   double S_norm() const { return S_norm_; }  // largest sum of |terms| of a row
   // One flag per node: an element of the region has it, and it has a dof that is not kept.

@@ -4,6 +4,8 @@
 #include "sage/conformance/solver_systems.hpp"
 #include "sage/messages/error.hpp"
 #include "solvers/frontal.hpp"
+#include "solvers/register_solvers.hpp"
+#include "solvers/repeated_fronts.hpp"
 
 namespace sage::test {
 
@@ -20,18 +22,15 @@ struct Way {
 };
 
 std::unique_ptr<LinearSolver> solver_for(const System& system, const Way& way) {
-  std::unique_ptr<LinearSolver> solver = way.symmetric ? make_frontal_ldlt() : make_frontal();
+  std::unique_ptr<LinearSolver> solver = way.twins       ? frontal_with_repeats(way.symmetric)()
+                                         : way.symmetric ? make_frontal_ldlt()
+                                                         : make_frontal();
   solver->configure({.threads = way.threads, .one_factorisation = way.once});
-  offered_by<RepeatedParts>(*solver).use_repeated_parts(way.twins);
   if (way.border > 0) {
     EXPECT_TRUE(offered_by<BorderSolver>(*solver).set_border(way.border));
   }
   load(*solver, system);
   return solver;
-}
-
-int repeated(LinearSolver& solver) {
-  return offered_by<RepeatedParts>(solver).repeated_equations();
 }
 
 void add_all(LinearSolver& solver, const System& system) {
@@ -103,6 +102,22 @@ TEST(TwinFronts, LeaveEveryBit) {
         }
 }
 
+// The entries of the multifrontal solvers name both solvers, under one name; no other solver has a second one.
+TEST(TwinFronts, AreASecondSolverOfTheSameEntry) {
+  Catalogue catalogue;
+  register_solvers(catalogue);
+  int both = 0;
+  for (const auto& [code, entry] : catalogue.solvers.entries()) {
+    const bool multifrontal = entry.name == "frontal" || entry.name == "frontal_ldlt";
+    ASSERT_EQ(static_cast<bool>(entry.make_with_repeats), multifrontal) << entry.name;
+    if (!multifrontal) continue;
+    ++both;
+    EXPECT_EQ(entry.make_with_repeats()->traits().name, entry.name);
+    EXPECT_EQ(entry.make_with_repeats()->traits().symmetric, entry.symmetric);
+  }
+  EXPECT_EQ(both, 2);
+}
+
 // Most of a mesh of equal elements repeats; of one whose elements all differ nothing does.
 TEST(TwinFronts, SaveWorkWhereElementsAreEqual) {
   System system = q4_mesh({.columns = 70, .rows = 100});
@@ -115,14 +130,14 @@ TEST(TwinFronts, SaveWorkWhereElementsAreEqual) {
   EXPECT_EQ(full.memory_bytes - saved.memory_bytes,
             static_cast<std::size_t>(full.factor_entries - saved.factor_entries) * sizeof(double));
   EXPECT_EQ(full.solve_operations, saved.solve_operations);
-  EXPECT_GT(repeated(*solver), system.equations / 2);
-  EXPECT_EQ(repeated(*in_full), 0);
+  EXPECT_GT(solver->report().repeated_equations, system.equations / 2);
+  EXPECT_EQ(in_full->report().repeated_equations, 0);
   for (std::size_t e = 0; e < system.K.size(); ++e) system.K[e] *= 1.0 + 1e-9 * static_cast<double>(e);
   for (LinearSolver* each : {solver.get(), in_full.get()}) {
     add_all(*each, system);
     each->factorise();
   }
-  EXPECT_EQ(repeated(*solver), 0);
+  EXPECT_EQ(solver->report().repeated_equations, 0);
   EXPECT_EQ(solver->report().factor_operations, full.factor_operations);
   EXPECT_EQ(solver->report().factor_entries, full.factor_entries);
   EXPECT_EQ(solver->report().memory_bytes, in_full->report().memory_bytes);
