@@ -180,7 +180,7 @@ Section lame_cases() {
            [](Record& r) { orders(r, LameBody::sphere); }},
           {"lame.sphere_nu", "sphere, nu = .3 to .4999999", "Lame: thick sphere", Grade::exact,
            "as for the cylinder", [](Record& r) { nu_sweep(r, {LameBody::sphere}); }},
-          {"lame.locking", "fully integrated quad4 at nu = .4999999 locks, and the program says so",
+          {"lame.locking", "fully integrated quad4 at nu = .4999999 locks, and sagefe warns before it runs",
            "Nagtegaal, Parks & Rice 1974: less than 1/1000 of Lame's displacement is left", Grade::published,
            "a flag, and a bound on what is left", locking},
           {"lame.two_rings", "two rings with an elastic interface, kn a/E = 1 to 1e12",
