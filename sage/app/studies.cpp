@@ -76,9 +76,9 @@ Command figures_command(CLI::App& parser, const Catalogue& catalogue) {
 Command stress_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<StressOptions>();
   parser.add_flag("--list", options->list, "list the rows and their references; compute nothing");
-  parser.add_option("--only", options->only, "compute only these rows");
-  parser.add_flag("--details", options->details, "print every trial, not only those that failed");
-  parser.add_option("--csv", options->csv, "write every trial to this file");
+  parser.add_option("--only", options->only, "compute only the rows of exactly these names");
+  parser.add_flag("--details", options->details, "print every trial of a row, not only those that failed");
+  parser.add_option("--csv", options->csv, "write every trial as CSV to this file");
   add_page_option(parser, options->page, "write a Markdown page, and plots into a folder beside it",
                   "docs/stress.md");
   return [options, &catalogue] { return studies().stress(*options, catalogue); };
@@ -86,11 +86,13 @@ Command stress_command(CLI::App& parser, const Catalogue& catalogue) {
 
 Command verify_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<VerifyOptions>();
-  parser.add_flag("--list", options->list, "list the cases; compute nothing");
-  parser.add_option("--only", options->only, "compute only cases (or sections) whose name contains this");
-  parser.add_flag("--rows", options->rows, "print every row, not only the one closest to its limit");
-  parser.add_option("--csv", options->csv, "write all rows as CSV to this file");
-  add_page_option(parser, options->write, "write the book as Markdown, with plots beside it",
+  parser.add_flag("--list", options->list, "list the cases and their references; compute nothing");
+  parser.add_option("--only", options->only,
+                    "compute only the cases or sections whose name contains this word");
+  parser.add_flag("--rows", options->rows,
+                  "print every number of a case, not only the one closest to its limit");
+  parser.add_option("--csv", options->csv, "write every number as CSV to this file");
+  add_page_option(parser, options->write, "write a Markdown page, and plots into a folder beside it",
                   "docs/verification.md");
   return [options, &catalogue] { return studies().verify(*options, catalogue); };
 }

@@ -113,7 +113,11 @@ void add_keys(const CardRule& card, Table& table) {
     } else {
       key.about = card.rules[i].codes;
     }
-    if (key.want == Want::nodes || key.want == Want::values) key.field = field.name.substr(0, 1);
+    if (key.want == Want::nodes || key.want == Want::values) {
+      key.field = field.name.substr(0, 1);
+      if (key.label.ends_with(" 1"))
+        key.label.replace(key.label.size() - 2, 2, "s");  // "node 1" of the card: nodes
+    }
     table.keys.push_back(std::move(key));
   }
 }
