@@ -9,6 +9,10 @@
 
 namespace sage {
 
+// Its steps lower the residual: below a loose tolerance it may have a minimum that is no equilibrium.  Stages with a
+// looser tolerance are solved to this one.
+inline constexpr double kDoglegTolerance = 1e-3;
+
 class Dogleg {
  public:
   // newton = K^-1 R.  Writes the step to take.

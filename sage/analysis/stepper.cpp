@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "sage/analysis/dogleg.hpp"
+
 namespace sage {
 
 namespace {
 
 constexpr int kDampedIterations = 200;  // of a damped attempt, at least
-// Dogleg steps lower the residual: below a loose tolerance it may have a minimum that is no equilibrium.
-constexpr double kOfDogleg = 1e-3;
 // What is put in comes out to ten digits.
 constexpr double kWaterBalance = 1e-11;
 constexpr int kManyHeads = 20000;  // their rounding errors have one sign and add up
@@ -24,7 +24,7 @@ NewtonSettings Stepper::settings() const {
     newton.tolerance *= 0.01;
     newton.max_iterations = std::min(newton.max_iterations, kShort);
   }
-  if (newton.method == Method::dogleg) newton.tolerance = std::min(newton.tolerance, kOfDogleg);
+  if (newton.method == Method::dogleg) newton.tolerance = std::min(newton.tolerance, kDoglegTolerance);
   newton.pulse = run_.settings.pulse;
   newton.committed = &run_.state.u;
   newton.unknowns = &run_.model.unknowns;

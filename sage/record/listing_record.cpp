@@ -7,6 +7,7 @@
 #include "sage/analysis/free_surface.hpp"
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
+#include "sage/record/values.hpp"
 
 namespace sage::listing {
 
@@ -145,23 +146,32 @@ void increment(std::string& text, const StepReport& report) {
   text += report.converged ? "\n" : "   NOT CONVERGED\n";
 }
 
+// What is left of sums that cancel is rounding: shown as 0 below 1e-12 of them.
+double without_rounding(double value, double scale) {
+  return std::abs(value) < 1e-12 * scale ? 0.0 : value;
+}
+
 void audit(std::string& text, const Model& model, const EquilibriumAudit& audit) {
   const AxisNames names = axis_names(model.geometry);
-  fmt::format_to(to(text), "\n   Equilibrium of the whole model ({})\n   {:>12}{:>16}{:>16}{:>16}\n",
-                 model.units.force, "", "applied", "reactions", "sum");
+  fmt::format_to(to(text), "\n   Equilibrium of the whole model ({}, {})\n   {:>12}{:>16}{:>16}{:>16}\n",
+                 model.units.force, forces_per(model), "", "applied", "reactions", "sum");
+  const double scale = std::max({std::abs(audit.applied[0]), std::abs(audit.applied[1]),
+                                 std::abs(audit.reactions[0]), std::abs(audit.reactions[1])});
   for (int c = 0; c < 2; ++c) {
     fmt::format_to(to(text), "   {:>12}", c == 0 ? names.x : names.y);
     for (double v : {audit.applied[c], audit.reactions[c], audit.applied[c] + audit.reactions[c]})
-      put(text, v, 16, 8);
+      put(text, without_rounding(v, scale), 16, 8);
     text += c == 0 && model.geometry == Geometry::axisymmetric
                 ? "   (radial forces of a ring need no sum of zero)\n"
                 : "\n";
   }
   if (model.geometry == Geometry::plane_strain)
-    fmt::format_to(to(text), "   {:>12}{:>48.3E}   (about the origin)\n", "moment", audit.moment);
+    fmt::format_to(to(text), "   {:>12}{:>48.3E}   (about the origin)\n", "moment",
+                   without_rounding(audit.moment, audit.scale));
   for (std::size_t i = 0; i < audit.fields.size(); ++i) {
     const UnknownField& field = model.unknowns[i + 1];
     const FieldAudit& sums = audit.fields[i];
+    if (sums.applied == 0.0 && sums.reactions == 0.0) continue;
     fmt::format_to(to(text), "   {:>12}", field.load);
     for (double v : {sums.applied, sums.reactions, sums.applied + sums.reactions}) put(text, v, 16, 8);
     fmt::format_to(to(text), "   ({}{})\n", field.name,

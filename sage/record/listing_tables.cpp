@@ -185,8 +185,9 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
     wide.push_back(row);
     most = std::max(most, row->size());
   }
-  fmt::format_to(to(text), "\n   Nodes (displacement {}, reaction of supports {}; positive along +{}, +{})\n",
-                 model.units.length, model.units.force, axes.x, axes.y);
+  fmt::format_to(to(text),
+                 "\n   Nodes (displacement {}, reaction of supports {}, {}; positive along +{}, +{})\n",
+                 model.units.length, model.units.force, forces_per(model), axes.x, axes.y);
   column(text, "node", 9);
   column(text, axes.x);
   column(text, axes.y);
