@@ -80,6 +80,24 @@ TEST(Listing, DisplacementsAndReactionsAreAlongTheAxes) {
   EXPECT_EQ(row(text, "Nodes (displacement", "40").size(), 5u);
 }
 
+// The supports of the fixture push with 0.25 that no load balances: no rounding, so it is shown.
+TEST(Listing, SumsOfForcesNameWhatTheyBelongToAndShowWhatIsUnbalanced) {
+  Specimen specimen;
+  const std::string text = run_listing("listing_sums", specimen);
+  EXPECT_TRUE(
+      has(text, "Equilibrium of the whole model (" + specimen.model.units.force + ", for the full circle"))
+      << text;
+  EXPECT_TRUE(has(text, "reaction of supports " + specimen.model.units.force + ", for the full circle"));
+  EXPECT_EQ(row(text, "Equilibrium of the whole model", "z")[3], "2.5000000E-01");
+}
+
+TEST(Listing, StatesTheToleranceThatDoglegIsHeldTo) {
+  Specimen specimen;
+  specimen.model.stages[0].method = Method::dogleg;
+  specimen.model.stages[0].tolerance = 0.5;
+  EXPECT_TRUE(has(run_listing("listing_dogleg", specimen), "tolerance 1.0e-03"));
+}
+
 TEST(Listing, StatesUnitsAndSigns) {
   Specimen specimen;
   const std::string text = run_listing("listing_header", specimen);
