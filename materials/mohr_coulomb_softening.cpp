@@ -41,6 +41,11 @@ const std::vector<Parameter>& rows() {
                          "after strain_1: 0 straight to strain_2, 1 exponential with that length", 0.0));
     r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0,
                          ParameterRole::tension_limit));
+    r.push_back(
+        optional("band_width", Dimension::length,
+                 "of the band whose strains these are: falling strength then follows strain times element "
+                 "size over this; 0 = strain alone",
+                 0.0));
     return r;
   }();
   return table;
@@ -68,6 +73,7 @@ StrengthPath path_from(const Parameters& p) {
   if (!(path.strain[1] > path.strain[0])) p.refuse("strain_2", "must be greater than strain_1");
   path.T = p.number("tension_cut_off") == -1.0 ? std::numeric_limits<double>::infinity()
                                                : p.not_negative("tension_cut_off");
+  path.band_width = p.not_negative("band_width");
   return path;
 }
 
@@ -101,52 +107,57 @@ MovingPlanes StrengthPath::at(double kappa) const {
           {N_rate, 2.0 * change(c) * root + cohesion * N_rate / root, slope_rate(dilation) * change(psi), 0.0}};
 }
 
-bool StrengthPath::softens() const {
-  return c[1] < c[0] || c[2] < c[1] || phi[1] < phi[0] || phi[2] < phi[1];
+ValueAndSlope StrengthPath::strain_at(double kappa, double size) const {
+  const auto rate = [&](std::size_t value) {
+    return band_width > 0.0 && size > 0.0 && falls_to(value) ? band_width / size : 1.0;
+  };
+  if (kappa < strain[0]) return {rate(1) * kappa, rate(1)};
+  return {rate(1) * strain[0] + rate(2) * (kappa - strain[0]), rate(2)};
 }
 
 bool MohrCoulombSoftening::initialise(const Vector4& sigma, std::span<double> h) const {
-  h[kShear] = h[kVolume] = 0.0;
+  std::ranges::fill(h, 0.0);
   return stress_level(sigma, h) <= 1.0 + 1e-8;
 }
 
 bool MohrCoulombSoftening::accepts_history(const Vector4& sigma, std::span<const double> h) const {
-  return h[kShear] >= 0.0 && stress_level(sigma, h) <= 1.0 + 1e-8;
+  return h[kShear] >= 0.0 && h[strength_index()] >= 0.0 && stress_level(sigma, h) <= 1.0 + 1e-8;
 }
 
 double MohrCoulombSoftening::stress_level(const Vector4& sigma, std::span<const double> h) const {
-  return mohr_coulomb_level(path_.at(h[kShear]).planes, sigma);
+  return mohr_coulomb_level(path_.at(h[strength_index()]).planes, sigma);
 }
 
 std::string MohrCoulombSoftening::caution() const {
-  if (!path_.softens()) return {};
+  if (!path_.softens() || path_.band_width > 0.0) return {};
   return "the strength falls with plastic strain: it gathers in bands as narrow as the elements, so that loads "
          "after "
          "the peak depend on the mesh (docs/theory/mohr_coulomb_softening.md)";
 }
 
-MohrCoulombSoftening::Attempt MohrCoulombSoftening::attempt(double kappa0, const Vector4& trial,
+MohrCoulombSoftening::Attempt MohrCoulombSoftening::attempt(const ValueAndSlope& strain, const Vector4& trial,
                                                             double kappa) const {
   const MovingPlanes moving = path_.at(kappa);
   Attempt a;
   a.direction.setZero();
   if (!outside(moving.planes, trial)) {  // it has hardened beyond the trial stress
     a.moved = {{trial, Matrix4::Identity(), PointStatus::yielded}, Vector4::Zero(), Vector4::Zero()};
-    a.lack = {kappa - kappa0, 1.0};
+    a.lack = strain;
     return a;
   }
   a.moved = return_to_moving_planes(moving, elastic_, trial);
   const Vector4 s = deviator(trial - a.moved.back.sigma);
   const double q = std::sqrt(0.5 * contract(s, s));
   if (q > 0.0) a.direction = Vector4(s[0], s[1], s[2], 2.0 * s[3]) / (2.0 * q);
-  a.lack = {kappa - kappa0 - q / elastic_.G, 1.0 + a.direction.dot(a.moved.rate) / elastic_.G};
+  a.lack = {strain.value - q / elastic_.G, strain.slope + a.direction.dot(a.moved.rate) / elastic_.G};
   return a;
 }
 
 // The strength at the end of the increment holds (implicit): kappa is the zero of what it lacks.
 Outcome MohrCoulombSoftening::update(const PointIn<4>& in, PointOut<4>& out) const {
   std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
-  const double kappa0 = in.h0[kShear];
+  const std::size_t strength = strength_index();
+  const double kappa0 = in.h0[strength];
   const Vector4 trial = in.sigma0 + D_elastic_ * in.deps;
   if (!outside(path_.at(kappa0).planes, trial)) {
     out.sigma = trial;
@@ -154,11 +165,17 @@ Outcome MohrCoulombSoftening::update(const PointIn<4>& in, PointOut<4>& out) con
     out.status = PointStatus::elastic;
     return Outcome::ok;
   }
-  const auto lack = [&](double kappa) { return attempt(kappa0, trial, kappa).lack; };
+  const double size = in.context != nullptr ? in.context->size : 0.0;
+  const double strain0 = path_.strain_at(kappa0, size).value;
+  const auto strain = [&](double kappa) {
+    const ValueAndSlope now = path_.strain_at(kappa, size);
+    return ValueAndSlope{now.value - strain0, now.slope};
+  };
+  const auto lack = [&](double kappa) { return attempt(strain(kappa), trial, kappa).lack; };
   double reach = 2.0 * sqrt_j2(trial) / elastic_.G;
   for (int doubling = 0; doubling < 60 && lack(kappa0 + reach).value < 0.0; ++doubling) reach *= 2.0;
   const double kappa = rising_zero(lack, kappa0, kappa0 + reach, kappa0, 1e-16 * (kappa0 + reach));
-  const Attempt last = attempt(kappa0, trial, kappa);
+  const Attempt last = attempt(strain(kappa), trial, kappa);
   if (!(last.lack.slope > 1e-9)) return Outcome::cut_step;
   const MohrCoulombReturn& back = last.moved.back;
   out.sigma = back.sigma;
@@ -166,7 +183,8 @@ Outcome MohrCoulombSoftening::update(const PointIn<4>& in, PointOut<4>& out) con
       (last.direction - back.R.transpose() * last.direction) / (elastic_.G * last.lack.slope);
   out.D = (back.R + last.moved.rate * growth.transpose()) * D_elastic_;
   out.status = back.status;
-  out.h1[kShear] = kappa;
+  out.h1[kShear] = strength == kShear ? kappa : in.h0[kShear] + strain(kappa).value;
+  out.h1[strength] = kappa;
   out.h1[kVolume] += mean_stress(trial - back.sigma) / elastic_.K;
   return Outcome::ok;
 }

@@ -100,6 +100,50 @@ TEST(MohrCoulombSoftening, EvenTensionDoesNotSoften) {
   EXPECT_EQ(a.status, PointStatus::apex);
 }
 
+// An element of twice the band's size needs half the strain: it is the law with half of strain_1, with the same strain
+// reported.  The tangent is that law's, too.
+TEST(MohrCoulombSoftening, StrainGoesWithTheSizeOfTheElement) {
+  const double end = 0.03, width = 0.2;
+  const std::vector<double> rest{-1, -1, -1, -1, 0, -1};
+  const auto law_of = [&](double strain, std::vector<double> more) {
+    std::vector<double> values{kE, kNu, 20, 30, 10, strain, 5, 25, 5};
+    values.insert(values.end(), rest.begin(), rest.end());
+    values.insert(values.end(), more.begin(), more.end());
+    return test::solid(8, values);
+  };
+  const auto band = law_of(end, {width});
+  EXPECT_EQ(band->caution(), "");
+  ASSERT_EQ(band->traits().history.size(), 3u);
+  EXPECT_TRUE(band->traits().wants_context);
+  for (const double ratio : {0.5, 1.0, 2.0}) {
+    const auto plain = law_of(end / ratio, {});
+    PointContext context;
+    context.size = ratio * width;
+    Vector4 sigma_a{-100, -100, -100, 0}, sigma_b = sigma_a;
+    std::vector<double> a(3, 0.0), b(2, 0.0);
+    for (int i = 0; i < 8; ++i) {
+      const Vector4 deps{0.002, -0.003, 0.0, 0.001};
+      std::vector<double> a1(3), b1(2);
+      PointOut<4> of_band, of_plain;
+      of_band.h1 = a1;
+      of_plain.h1 = b1;
+      ASSERT_EQ(band->update({sigma_a, Vector4::Zero(), deps, a, &context}, of_band), Outcome::ok);
+      ASSERT_EQ(plain->update({sigma_b, Vector4::Zero(), deps, b, nullptr}, of_plain), Outcome::ok);
+      EXPECT_LE((of_band.sigma - of_plain.sigma).norm(), 1e-9 * of_plain.sigma.norm()) << ratio << ' ' << i;
+      EXPECT_LE((of_band.D - of_plain.D).norm(), 1e-7 * kE) << ratio << ' ' << i;
+      EXPECT_NEAR(a1[0], b1[0], 1e-12);
+      // Beyond strain_1 nothing falls.
+      EXPECT_NEAR(a1[2], ratio * std::min(b1[0], end / ratio) + std::max(b1[0] - end / ratio, 0.0), 1e-12);
+      EXPECT_NEAR(band->stress_level(of_band.sigma, a1), plain->stress_level(of_plain.sigma, b1), 1e-9);
+      sigma_a = of_band.sigma;
+      sigma_b = of_plain.sigma;
+      a = a1;
+      b = b1;
+    }
+    EXPECT_GT(b[0], 0.01);
+  }
+}
+
 TEST(MohrCoulombSoftening, SaysThatResultsDependOnTheMesh) {
   EXPECT_NE(test::solid(8, {kE, kNu, 10, 30, 0, 0.01, 5, 30, 0})->caution().find("depend on the mesh"),
             std::string::npos);
