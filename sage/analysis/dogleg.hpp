@@ -4,14 +4,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "sage/core/solver_extensions.hpp"
+#include "sage/model/model.hpp"
 
 namespace sage {
 
-// Its steps lower the residual: below a loose tolerance it may have a minimum that is no equilibrium.  Stages with a
-// looser tolerance are solved to this one.
-inline constexpr double kDoglegTolerance = 1e-3;
+// Tolerance to which a stage is solved.  Dogleg steps lower the residual: below a loose tolerance it may have a minimum
+// that is no equilibrium, so they are held to 1e-3.
+inline double held_tolerance(Method method, double tolerance) {
+  return method == Method::dogleg ? std::min(tolerance, 1e-3) : tolerance;
+}
 
 class Dogleg {
  public:

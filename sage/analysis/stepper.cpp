@@ -24,7 +24,7 @@ NewtonSettings Stepper::settings() const {
     newton.tolerance *= 0.01;
     newton.max_iterations = std::min(newton.max_iterations, kShort);
   }
-  if (newton.method == Method::dogleg) newton.tolerance = std::min(newton.tolerance, kDoglegTolerance);
+  newton.tolerance = held_tolerance(newton.method, newton.tolerance);
   newton.pulse = run_.settings.pulse;
   newton.committed = &run_.state.u;
   newton.unknowns = &run_.model.unknowns;

@@ -275,8 +275,7 @@ void stage(std::string& text, const Model& model, int index) {
   fmt::format_to(
       to(text),
       "   {} increments, {}, tolerance {:.1e} (out-of-balance force / force scale), at most {} iterations\n",
-      s.increments, method_name(s.method),
-      s.method == Method::dogleg ? std::min(s.tolerance, kDoglegTolerance) : s.tolerance, s.max_iterations);
+      s.increments, method_name(s.method), held_tolerance(s.method, s.tolerance), s.max_iterations);
   std::string parts;
   const auto add = [&parts](const std::string& part) { parts += (parts.empty() ? "" : "; ") + part; };
   if (!s.births.empty()) add("placed: groups " + group_numbers(model, s.births));
