@@ -35,22 +35,36 @@ void ElementWork::stop_if_asked_at(int element) const {
   if (element % kEvery == 0) stop_if_asked(stop_asked_);
 }
 
+bool ElementWork::keeps_geometry(const GroupData& data) const {
+  return keep_geometry_ && !data.constant && !data.four_abreast();
+}
+
+void ElementWork::prepare(GroupData& data) {
+  if (!keeps_geometry(data) || !data.geometry.empty()) return;
+  const Group& group = *data.group;
+  const auto size = static_cast<std::size_t>(group.element->traits().geometry_size());
+  data.geometry.resize(size * static_cast<std::size_t>(group.elements()));
+  for (int e = 0; e < group.elements(); ++e) {
+    element_coordinates(model_->mesh, group, e, x_);
+    group.element->geometry(x_, {data.geometry.data() + static_cast<std::size_t>(e) * size, size});
+  }
+}
+
+void ElementWork::go_on_from(const ElementWork& other) {
+  stop_asked_ = other.stop_asked_;
+  committed_ = other.committed_;
+  step_time_ = other.step_time_;
+}
+
 const double* ElementWork::geometry_of(GroupData& data, int element) {
   const Group& group = *data.group;
   const auto size = static_cast<std::size_t>(group.element->traits().geometry_size());
-  const bool keep = keep_geometry_ && !data.constant && !data.four_abreast();
-  if (!keep) {
+  if (!keeps_geometry(data)) {
     element_coordinates(model_->mesh, group, element, x_);
     group.element->geometry(x_, {geometry_.data(), size});
     return geometry_.data();
   }
-  if (data.geometry.empty()) {
-    data.geometry.resize(size * static_cast<std::size_t>(group.elements()));
-    for (int e = 0; e < group.elements(); ++e) {
-      element_coordinates(model_->mesh, group, e, x_);
-      group.element->geometry(x_, {data.geometry.data() + static_cast<std::size_t>(e) * size, size});
-    }
-  }
+  prepare(data);
   return data.geometry.data() + static_cast<std::size_t>(element) * size;
 }
 

@@ -31,6 +31,11 @@ class ElementWork {
   // Internal forces at committed state + du (nullptr: none) into f(), K where it is not nullptr.  Stress and
   // strain of constant groups go into sigma() and eps(), all other states into the trial side.
   Outcome evaluate(GroupData& data, int element, const Eigen::VectorXd* du, double* K);
+  // What evaluate() would make for all elements at their first turn: then work of the group may be divided among threads,
+  // each with an ElementWork of its own.
+  void prepare(GroupData& data);
+  // Takes the time, the committed unknowns and the wish to stop from another one.
+  void go_on_from(const ElementWork& other);
   // Before each pass over the elements.
   void begin_pass() { load_change_.setZero(); }
   // What the motion adds to loads on edges, every dof, of the pass so far; size 0 where none follows.
@@ -46,6 +51,7 @@ class ElementWork {
   const double* committed_of(const ElementDofs& dofs);
   static const double* spread_of(const GroupData& data, int element, double load_factor, double* to);
   std::span<const EdgeTraction> edges_of(const GroupData& data, int element);
+  bool keeps_geometry(const GroupData& data) const;
   const double* geometry_of(GroupData& data, int element);
   const PointContext* contexts_of(const GroupData& data, int element);
 

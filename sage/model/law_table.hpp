@@ -2,11 +2,13 @@
 // materials in later stages, bars whose force is held.  docs/decisions/0085-laws-by-point-and-stage.md
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "sage/core/calls_in_order.hpp"
 #include "sage/core/law.hpp"
 #include "sage/core/law_remark.hpp"
 #include "sage/core/spaced_members.hpp"
@@ -44,6 +46,7 @@ class LawTable final : public Law<N>,
                        public PathError<N>,
                        public StartAdjustment<N>,
                        public LawRemark,
+                       public CallsInOrder,
                        public ChoosesLaw<N>,
                        public TableSpacing<N> {
  public:
@@ -59,6 +62,9 @@ class LawTable final : public Law<N>,
   double path_error(const PointIn<N>& in, const Vector<N>& sigma, std::span<const double> h) const override;
   std::string caution() const override { return laws_.front().law->caution(); }
   std::string remark() const override { return remark_of(*laws_.front().law); }
+  bool needs_order() const override {
+    return std::ranges::any_of(laws_, [](const One& one) { return sage::needs_order(*one.law); });
+  }
   bool adjusts_start(const Vector<N>& sigma) const override {
     return sage::adjusts_start(*laws_.front().law, sigma);
   }

@@ -1,6 +1,7 @@
 // Soil whose pore water can't leave: a law around that of the grains.
 #pragma once
 
+#include "sage/core/calls_in_order.hpp"
 #include "sage/core/law.hpp"
 #include "sage/core/law_remark.hpp"
 #include "sage/core/start_adjustment.hpp"
@@ -19,6 +20,7 @@ class UndrainedLaw final : public SolidLaw,
                            public PathError<4>,
                            public StartAdjustment<4>,
                            public LawRemark,
+                           public CallsInOrder,
                            public ChoosesLaw<4> {
  public:
   static constexpr std::size_t kOwn = 3;
@@ -36,6 +38,7 @@ class UndrainedLaw final : public SolidLaw,
   double path_error(const PointIn<4>& in, const Vector4& sigma, std::span<const double> h) const override;
   std::string caution() const override { return grains_->caution(); }
   std::string remark() const override { return remark_of(*grains_); }
+  bool needs_order() const override { return sage::needs_order(*grains_); }
   // Of the effective stress; no excess pressure stands at the start.
   bool adjusts_start(const Vector4& sigma) const override { return sage::adjusts_start(*grains_, sigma); }
   double stress_level(const Vector4& sigma, std::span<const double> h) const override;

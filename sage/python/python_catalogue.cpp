@@ -9,6 +9,7 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "sage/app/plugins.hpp"
+#include "sage/core/calls_in_order.hpp"
 #include "sage/umat/law.hpp"
 #include "solvers/register_solvers.hpp"
 
@@ -70,7 +71,7 @@ class RaisedError {
 
 // Python sees compression positive stresses and strains; the tangent has the same sign in both worlds.
 template <int N>
-class PythonLaw final : public Law<N>, public RaisedError {
+class PythonLaw final : public Law<N>, public RaisedError, public CallsInOrder {
  public:
   PythonLaw(std::shared_ptr<const PythonEntry> entry, std::span<const double> values)
       : entry_(std::move(entry)) {
@@ -82,6 +83,7 @@ class PythonLaw final : public Law<N>, public RaisedError {
   }
 
   LawTraits traits() const override { return {.history = entry_->history, .symmetric = entry_->symmetric}; }
+  bool needs_order() const override { return true; }
 
   Outcome update(const PointIn<N>& in, PointOut<N>& out) const override {
     const py::gil_scoped_acquire lock;

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include "sage/core/calls_in_order.hpp"
 #include "sage/messages/error.hpp"
 
 namespace sage::umat {
@@ -98,7 +99,7 @@ double probe_of(const Vector4& deps) {
   return std::max(1e-3 * deps.cwiseAbs().maxCoeff(), 1e-7);
 }
 
-class UmatLaw final : public SolidLaw {
+class UmatLaw final : public SolidLaw, public CallsInOrder {
  public:
   explicit UmatLaw(Setup setup) : setup_(std::move(setup)), call_(setup_), calls_(setup_) {
     const auto state = static_cast<std::size_t>(setup_.statev);
@@ -111,6 +112,8 @@ class UmatLaw final : public SolidLaw {
   LawTraits traits() const override {
     return {.history = quantities_, .symmetric = setup_.symmetric, .wants_context = true};
   }
+
+  bool needs_order() const override { return !setup_.threads_safe; }
 
   Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
     static const PointContext nowhere{};

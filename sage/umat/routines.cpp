@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -53,6 +54,35 @@ std::array<std::mutex, 101> mutexes;
 std::mutex* mutex_of(const int* id) {
   return *id >= 0 && *id <= 100 ? &mutexes[*id] : nullptr;
 }
+
+// The smallest number that no other living thread has.
+constexpr int kMostThreads = 256;
+class ThreadNumber {
+ public:
+  ThreadNumber() {
+    const std::lock_guard lock(guard());
+    while (number_ < kMostThreads - 1 && taken()[number_]) ++number_;
+    taken().set(number_);
+  }
+  ~ThreadNumber() {
+    const std::lock_guard lock(guard());
+    taken().reset(number_);
+  }
+  ThreadNumber(const ThreadNumber&) = delete;
+  ThreadNumber& operator=(const ThreadNumber&) = delete;
+  int value() const { return number_; }
+
+ private:
+  static std::mutex& guard() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  static std::bitset<kMostThreads>& taken() {
+    static std::bitset<kMostThreads> numbers;
+    return numbers;
+  }
+  int number_ = 0;
+};
 
 }  // namespace
 
@@ -145,10 +175,11 @@ void getrank_(int* rank) {
   *rank = 0;
 }
 int getnumthreads_() {
-  return 1;
+  return kMostThreads;
 }
 int get_thread_id_() {
-  return 0;
+  thread_local const ThreadNumber number;
+  return number.value();
 }
 
 void mutexinit_(const int* /*id*/) {}

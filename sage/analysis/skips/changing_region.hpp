@@ -32,6 +32,9 @@ class ChangingRegion {
   const FieldSums& sums() const { return sums_; }
 
  private:
+  struct Block {
+    int first, last;  // elements of a group, the last one not among them
+  };
   bool divides(const GroupData& data) const;
   Outcome evaluate_four_abreast(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
   Outcome evaluate_in_units(GroupData& data, const PassFourAbreast& pass, Tangent* tangent);
@@ -40,15 +43,21 @@ class ChangingRegion {
   Outcome evaluate_unit(GroupData& data, const PassFourAbreast& pass, int first, double* f, bool with_K,
                         bool& changed) const;
   Outcome evaluate_one_by_one(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
+  Outcome evaluate_in_turn(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
+  Outcome evaluate_side_by_side(GroupData& data, const Eigen::VectorXd& du, Tangent* tangent);
+  Outcome evaluate_block(GroupData& data, const Eigen::VectorXd& du, Block block, bool with_K, bool& changed);
+  // K: of the block's elements, one after the other.
+  void add_matrices(const GroupData& data, Block block, const double* K, Tangent& tangent) const;
   void add_forces(const GroupData& data, int first, int last, const double* f);
 
   std::vector<GroupData>* groups_;
   ElementWork* element_;
   WorkCounters* work_;
   std::unique_ptr<ThreadPool> pool_;  // none: one thread
+  std::vector<ElementWork> own_;      // buffers of each thread
   Eigen::VectorXd forces_;
   FieldSums sums_{};
-  std::vector<double> element_forces_, element_matrices_;  // work space of groups that go by four
+  std::vector<double> element_forces_, element_matrices_;  // work space
 };
 
 }  // namespace sage

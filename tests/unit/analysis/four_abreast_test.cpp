@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
+#include <set>
+#include <thread>
 #include <utility>
 
 #include "sage/analysis/run.hpp"
@@ -10,6 +13,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/builder/build_model.hpp"
 #include "sage/conformance/sample_laws.hpp"
+#include "sage/core/calls_in_order.hpp"
 #include "sage/deck/read_deck.hpp"
 #include "solvers/choose_solver.hpp"
 #include "tests/support/offers_four.hpp"
@@ -123,6 +127,67 @@ TEST(ByFour, GivesTheStateOfOneByOne) {
         }
       }
     }
+}
+
+// The law, and the threads that called it.
+class Watched : public OneByOne {
+ public:
+  explicit Watched(LawPtr law) : OneByOne(std::move(law)) {}
+  Outcome update(const PointIn<4>& in, PointOut<4>& out) const override {
+    {
+      const std::lock_guard lock(lock_);
+      callers_.insert(std::this_thread::get_id());
+    }
+    return OneByOne::update(in, out);
+  }
+  std::size_t callers() const { return callers_.size(); }
+
+ private:
+  mutable std::mutex lock_;
+  mutable std::set<std::thread::id> callers_;
+};
+
+struct WatchedInOrder final : Watched, CallsInOrder {
+  using Watched::Watched;
+  bool needs_order() const override { return true; }
+};
+
+// 2500 points.  A law of which nothing is known is called by all threads, and each of them leaves the bits that one
+// thread leaves; a law that needs its calls in order is called by one.
+TEST(OneByOne, GoesOnThreadsWithTheSameBits) {
+  static const Catalogue catalogue = app::full_catalogue();
+  const std::string text = punch(25, 25, test::Cell::quad8, 2);
+  struct Ran {
+    LastState last;
+    std::size_t callers;
+  };
+  const auto ran = [&]<class WatchedLaw>(std::type_identity<WatchedLaw>, int threads, bool keep_matrices) {
+    Model model = build_model(read_deck_text(text, "punch.dat", load_layout("sage1")), catalogue);
+    auto watched = std::make_unique<WatchedLaw>(std::move(model.materials[0].law));
+    const WatchedLaw& law = *watched;
+    model.materials[0].law = std::move(watched);
+    RunSettings settings;
+    settings.choose_solver = choose_solver;
+    settings.threads = threads;
+    settings.skips.factors = keep_matrices;
+    Ran result;
+    Observer* observers[] = {&result.last};
+    EXPECT_EQ(run(model, catalogue, settings, observers).status, RunStatus::completed);
+    result.callers = law.callers();
+    return result;
+  };
+  const Ran one = ran(std::type_identity<Watched>{}, 1, true);
+  EXPECT_EQ(one.callers, 1u);
+  EXPECT_GT(std::ranges::count(one.last.points.status, PointStatus::yielded), 0);
+  for (const int threads : {2, 3})
+    for (const bool keep : {true, false}) {
+      const Ran several = ran(std::type_identity<Watched>{}, threads, keep);
+      EXPECT_GT(several.callers, 1u) << "passes without K go on threads, whether matrices are kept or not";
+      EXPECT_TRUE(several.last.u == one.last.u);
+      EXPECT_EQ(several.last.points.sigma, one.last.points.sigma);
+      EXPECT_EQ(several.last.points.h, one.last.points.h);
+    }
+  EXPECT_EQ(ran(std::type_identity<WatchedInOrder>{}, 3, true).callers, 1u);
 }
 
 // Elements with more dofs or points than there is room for go one by one, although they offer four: quad25 has 50 and
