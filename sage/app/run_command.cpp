@@ -363,7 +363,10 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_flag("--points", request.output.points, "write STEM.points.csv: stress and state of all points");
   add_digits_option(parser, request.output.digits);
   parser.add_flag("--vtu", request.output.vtu, "write VTU files and a PVD for ParaView");
-  parser.add_flag("--msh", request.output.msh, "write STEM.msh: mesh and fields for Gmsh (MSH 4.1)");
+  parser.add_flag("--msh", request.output.msh, "write STEM.msh: mesh and fields for Gmsh (MSH 4.1, binary)");
+  parser.add_flag_function(
+      "--msh-text", [&](std::int64_t) { request.output.msh = request.output.msh_text = true; },
+      "write STEM.msh as text, which meshio needs");
   parser.add_flag("--result", request.output.result,
                   "write STEM.h5: all fields at all output increments in one HDF5 file (also for ParaView)");
   parser.add_flag(

@@ -25,6 +25,7 @@ struct OutputOptions {
   bool error = false;                 // estimate of the discretisation error
   bool vtu = false;                   // STEM_0001.vtu ... and STEM.pvd
   bool msh = false;                   // STEM.msh
+  bool msh_text = false;              // as text; only with msh
   bool result = false;                // STEM.h5
   std::vector<std::string> pictures;  // fields, as SVG at the end of each stage and at `states`
   std::vector<std::string> states;    // more output increments than the deck's (state_choices)

@@ -37,10 +37,11 @@ template <class... Members>
 void does_not_count(const Members&...) {}
 
 void Key::add(const OutputOptions& options) {
-  const auto& [folder, listing, tables, increments, nodes, points, digits, error, vtu, msh, result, pictures,
-               states, fields] = options;
+  const auto& [folder, listing, tables, increments, nodes, points, digits, error, vtu, msh, msh_text, result,
+               pictures, states, fields] = options;
   does_not_count(folder);  // the checkpoint lies in it
-  count(listing, tables, increments, nodes, points, digits, error, vtu, msh, result, pictures, states, fields);
+  count(listing, tables, increments, nodes, points, digits, error, vtu, msh, msh_text, result, pictures, states,
+        fields);
 }
 
 void Key::add(const Skips& skips) {

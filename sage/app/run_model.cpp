@@ -93,7 +93,7 @@ std::unique_ptr<Model> read_model(RunRequest& request, const Catalogue& catalogu
   if (request.output.result) source = source_of(*deck.source.text(), deck.layout, request.input.layout, build);
   source.heads = std::move(heads);
   if (request.output.vtu || request.output.result) warn_of_vtu(*model, model->diagnostics);
-  if (request.output.msh) msh_mesh(*model, model->diagnostics);
+  if (request.output.msh) msh_mesh(*model, MshForm::binary, model->diagnostics);
   request.output.fields = require_fields(request.output.pictures, request.output.fields, {fields_of(*model)});
   expect_drawn(request.output.pictures, *model);
   warn_of_fields(request.output, *model);

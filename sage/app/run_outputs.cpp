@@ -27,9 +27,11 @@ Outputs make_outputs(const RunRequest& request, const Catalogue& catalogue, cons
         CsvOptions{options.increments, options.nodes, options.points, csv_digits(options), options.fields}));
   if (options.vtu) outputs.push_back(std::make_unique<Vtu>(options.folder, stem));
   if (options.msh) {
+    const MshForm form = options.msh_text ? MshForm::text : MshForm::binary;
     Diagnostics said_before;
-    MshMesh mesh = msh_mesh(model, said_before);
-    outputs.push_back(std::make_unique<MshResults>(options.folder, stem, mesh.text, std::move(mesh.elements)));
+    MshMesh mesh = msh_mesh(model, form, said_before);
+    outputs.push_back(
+        std::make_unique<MshResults>(options.folder, stem, mesh.text, std::move(mesh.elements), form));
   }
   if (options.result)
     outputs.push_back(std::make_unique<ResultOutput>(options.folder, stem, source, threads_for(request.threads),

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "sage/model/foreign_element.hpp"
 #include "sage/model/model.hpp"
 
 namespace sage {
@@ -37,10 +38,10 @@ std::string msh_text(const Model& model, Diagnostics& diagnostics);
 
 // The same for files that hold more than a mesh: without a word about what a mesh can't say.
 struct MshMesh {
-  std::string text;
+  std::string text;           // or bytes
   std::vector<int> elements;  // numbers in the order of the file, with those of lines
 };
-MshMesh msh_mesh(const Model& model, Diagnostics& diagnostics);
+MshMesh msh_mesh(const Model& model, MshForm form, Diagnostics& diagnostics);
 
 // Abaqus-style input for CalculiX: mesh, sets, elastic constants, supports and loads step by step.
 std::string inp_text(const Model& model, Diagnostics& diagnostics);

@@ -1,7 +1,9 @@
-// A model's mesh as Gmsh MSH 4.1 ASCII.  Gmsh counts nodes of an element as this program does.
+// A model's mesh as Gmsh MSH 4.1, as text or binary.  Gmsh counts nodes of an element as this program does.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -166,24 +168,60 @@ Vector2 place_of(const Model& model, const Block& block) {
   return model.mesh.x.col(node);
 }
 
-std::string entities(const Model& model, const std::vector<Block>& blocks) {
-  const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
-  const std::string box = fmt::format("{} {} 0 {} {} 0", low[0], low[1], high[0], high[1]);
-  std::map<std::pair<int, int>, bool> known;
-  std::string of_dimension[3];
-  int counts[3] = {0, 0, 0};
-  for (const Block& block : blocks) {
-    if (!known.try_emplace({block.dimension, block.tag}, true).second) continue;
-    ++counts[block.dimension];
-    if (block.dimension == 0) {
-      const Vector2 at = place_of(model, block);
-      of_dimension[0] += fmt::format("{} {} {} 0 1 {}\n", block.tag, at.x(), at.y(), block.tag);
-    } else {
-      of_dimension[block.dimension] += fmt::format("{} {} 1 {} 0\n", block.tag, box, block.tag);
-    }
+// Numbers of a section: words of a line, or their bytes.
+class Numbers {
+ public:
+  Numbers(std::string& to, MshForm form) : to_(&to), binary_(form == MshForm::binary) {}
+
+  Numbers& operator<<(int value) { return add(value); }
+  Numbers& operator<<(std::size_t value) { return add(value); }
+  Numbers& operator<<(double value) { return add(value + 0.0); }  // no -0
+  void end_line() {
+    if (!binary_) to_->back() = '\n';
   }
-  return fmt::format("$Entities\n{} {} {} 0\n{}{}{}$EndEntities\n", counts[0], counts[1], counts[2],
-                     of_dimension[0], of_dimension[1], of_dimension[2]);
+  void end_section(std::string_view name) { *to_ += fmt::format("{}$End{}\n", binary_ ? "\n" : "", name); }
+
+ private:
+  template <class Number>
+  Numbers& add(Number value) {
+    if (binary_)
+      to_->append(reinterpret_cast<const char*>(&value), sizeof value);
+    else
+      fmt::format_to(std::back_inserter(*to_), "{} ", value);
+    return *this;
+  }
+
+  std::string* to_;
+  bool binary_;
+};
+
+void add_entity(Numbers& out, const Model& model, const Block& block) {
+  constexpr std::size_t kNamed = 1, kBounds = 0;  // one physical group each, whose number is the entity's
+  out << block.tag;
+  if (block.dimension == 0) {
+    const Vector2 at = place_of(model, block);
+    out << at.x() << at.y() << 0.0 << kNamed << block.tag;
+  } else {
+    const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
+    out << low[0] << low[1] << 0.0 << high[0] << high[1] << 0.0 << kNamed << block.tag << kBounds;
+  }
+  out.end_line();
+}
+
+void add_entities(std::string& text, MshForm form, const Model& model, const std::vector<Block>& blocks) {
+  std::map<std::pair<int, int>, const Block*> known;
+  std::array<std::vector<const Block*>, 3> of_dimension;
+  for (const Block& block : blocks)
+    if (known.try_emplace({block.dimension, block.tag}, &block).second)
+      of_dimension[block.dimension].push_back(&block);
+  text += "$Entities\n";
+  Numbers out(text, form);
+  for (const auto& some : of_dimension) out << some.size();
+  out << std::size_t{0};
+  out.end_line();
+  for (const auto& some : of_dimension)
+    for (const Block* block : some) add_entity(out, model, *block);
+  out.end_section("Entities");
 }
 
 // A mesh file is a mesh: what else the deck says must be given anew.
@@ -249,17 +287,47 @@ std::vector<Block> blocks_of(const Model& model, Diagnostics& diagnostics, HeldD
   return blocks;
 }
 
-void add_nodes(const Mesh& mesh, std::string& text) {
-  const auto& number = mesh.number;
-  text += fmt::format("$Nodes\n1 {} {} {}\n2 1 0 {}\n", number.size(), number.empty() ? 0 : number.front(),
-                      number.empty() ? 0 : *std::max_element(number.begin(), number.end()), number.size());
-  for (int n : number) text += fmt::format("{}\n", n);
-  for (int i = 0; i < mesh.nodes(); ++i)
-    text += fmt::format("{} {} 0\n", mesh.x(0, i) + 0.0, mesh.x(1, i) + 0.0);
-  text += "$EndNodes\n";
+void add_nodes(std::string& text, MshForm form, const Mesh& mesh) {
+  const std::vector<int>& number = mesh.number;
+  const auto count = number.size();
+  text += "$Nodes\n";
+  Numbers out(text, form);
+  const int largest = number.empty() ? 0 : *std::ranges::max_element(number);
+  out << std::size_t{1} << count << std::size_t(number.empty() ? 0 : number.front()) << std::size_t(largest);
+  out.end_line();
+  out << 2 << 1 << 0 << count;
+  out.end_line();
+  for (int n : number) {
+    out << std::size_t(n);
+    out.end_line();
+  }
+  for (int i = 0; i < mesh.nodes(); ++i) {
+    out << mesh.x(0, i) << mesh.x(1, i) << 0.0;
+    out.end_line();
+  }
+  out.end_section("Nodes");
 }
 
-MshMesh mesh_of(const Model& model, const std::vector<Block>& blocks) {
+void add_elements(std::string& text, MshForm form, const std::vector<Block>& blocks,
+                  const std::vector<int>& numbers) {
+  const auto [lowest, largest] = std::ranges::minmax_element(numbers);
+  const bool none = numbers.empty();
+  text += "$Elements\n";
+  Numbers out(text, form);
+  out << blocks.size() << numbers.size() << std::size_t(none ? 0 : *lowest) << std::size_t(none ? 0 : *largest);
+  out.end_line();
+  for (const Block& block : blocks) {
+    out << block.dimension << block.tag << block.type << block.elements.size();
+    out.end_line();
+    for (const auto& row : block.elements) {
+      for (int tag : row) out << std::size_t(tag);
+      out.end_line();
+    }
+  }
+  out.end_section("Elements");
+}
+
+MshMesh mesh_of(const Model& model, MshForm form, const std::vector<Block>& blocks) {
   std::map<std::pair<int, int>, std::string> names;
   MshMesh mesh;
   for (const Block& block : blocks) {
@@ -267,19 +335,19 @@ MshMesh mesh_of(const Model& model, const std::vector<Block>& blocks) {
     for (const auto& row : block.elements) mesh.elements.push_back(row[0]);
   }
   std::string& text = mesh.text;
-  text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n" + std::to_string(names.size()) + "\n";
-  for (const auto& [key, name] : names) text += fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
-  text += "$EndPhysicalNames\n" + entities(model, blocks);
-  add_nodes(model.mesh, text);
-  const auto [lowest, largest] = std::ranges::minmax_element(mesh.elements);
-  const bool none = mesh.elements.empty();
-  text += fmt::format("$Elements\n{} {} {} {}\n", blocks.size(), mesh.elements.size(), none ? 0 : *lowest,
-                      none ? 0 : *largest);
-  for (const Block& block : blocks) {
-    text += fmt::format("{} {} {} {}\n", block.dimension, block.tag, block.type, block.elements.size());
-    for (const auto& row : block.elements) text += fmt::format("{}\n", fmt::join(row, " "));
+  text = "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n";
+  if (form == MshForm::binary) {
+    constexpr int kByteOrder = 1;
+    text = "$MeshFormat\n4.1 1 8\n";
+    Numbers(text, form) << kByteOrder;
+    text += "\n$EndMeshFormat\n";
   }
-  text += "$EndElements\n";
+  text += "$PhysicalNames\n" + std::to_string(names.size()) + "\n";
+  for (const auto& [key, name] : names) text += fmt::format("{} {} \"{}\"\n", key.first, key.second, name);
+  text += "$EndPhysicalNames\n";
+  add_entities(text, form, model, blocks);
+  add_nodes(text, form, model.mesh);
+  add_elements(text, form, blocks, mesh.elements);
   return mesh;
 }
 
@@ -290,12 +358,12 @@ std::string msh_text(const Model& model, Diagnostics& diagnostics) {
   const std::vector<Block> blocks = blocks_of(model, diagnostics, beside);
   warn_of_unknowns(model, "MSH", diagnostics);
   warn_of_the_rest(model, beside, diagnostics);
-  return mesh_of(model, blocks).text;
+  return mesh_of(model, MshForm::text, blocks).text;
 }
 
-MshMesh msh_mesh(const Model& model, Diagnostics& diagnostics) {
+MshMesh msh_mesh(const Model& model, MshForm form, Diagnostics& diagnostics) {
   HeldDofs beside;
-  return mesh_of(model, blocks_of(model, diagnostics, beside));
+  return mesh_of(model, form, blocks_of(model, diagnostics, beside));
 }
 
 }  // namespace sage

@@ -6,7 +6,8 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <map>
+#include <limits>
+#include <unordered_map>
 #include <utility>
 
 #include "sage/model/foreign_element.hpp"
@@ -22,21 +23,36 @@ struct Step {
   int index = 0;
 };
 
-// What stands in front of a view's numbers.  kind: "NodeData".
-void open_view(std::string& out, std::string_view kind, const std::string& name, const Step& step, int numbers,
-               std::size_t rows) {
-  fmt::format_to(std::back_inserter(out), "${}\n1\n\"{}\"\n1\n{}\n3\n{}\n{}\n{}\n", kind, name, step.time,
-                 step.index, numbers, rows);
-}
+// One view of one state.
+class View {
+ public:
+  // kind: "NodeData".  numbers: per row.
+  View(std::string& out, MshForm form, std::string_view kind, const std::string& name, const Step& step,
+       int numbers, std::size_t rows)
+      : out_(&out), kind_(kind), binary_(form == MshForm::binary) {
+    fmt::format_to(std::back_inserter(out), "${}\n1\n\"{}\"\n1\n{}\n3\n{}\n{}\n{}\n", kind, name, step.time,
+                   step.index, numbers, rows);
+  }
+  void add(int number) { put(number); }
+  void add(double value) { put(value); }
+  void end_row() {
+    if (!binary_) out_->back() = '\n';
+  }
+  void close() { fmt::format_to(std::back_inserter(*out_), "{}$End{}\n", binary_ ? "\n" : "", kind_); }
 
-void close_view(std::string& out, std::string_view kind) {
-  fmt::format_to(std::back_inserter(out), "$End{}\n", kind);
-}
+ private:
+  template <class Number>
+  void put(Number number) {
+    if (binary_)
+      out_->append(reinterpret_cast<const char*>(&number), sizeof number);
+    else
+      fmt::format_to(std::back_inserter(*out_), "{} ", number);
+  }
 
-void add_number(std::string& out, double value) {
-  out += ' ';
-  fmt::format_to(std::back_inserter(out), "{}", value);
-}
+  std::string* out_;
+  std::string_view kind_;
+  bool binary_;
+};
 
 std::string view_name(const FieldEntry& field, const std::string& name, const UnitSystem& units) {
   std::string text = name + field_unit(field, units);
@@ -44,85 +60,96 @@ std::string view_name(const FieldEntry& field, const std::string& name, const Un
   return text;
 }
 
-void add_node_views(std::string& out, const Model& model, const Solution& now, const FieldTable& table,
-                    const Step& step) {
+void add_node_views(std::string& out, MshForm form, const Model& model, const Solution& now,
+                    const FieldTable& table, const Step& step) {
   const NodeViews views(model, now);
   for (const FieldEntry& field : table.rows()) {
     if (field.place() != FieldPlace::node || field.form != FieldForm::number) continue;
     const bool vector = field.shape == FieldShape::vector;
     const auto nodes = static_cast<std::size_t>(model.mesh.nodes());
-    open_view(out, "NodeData", view_name(field, field.name, model.units), step, vector ? 3 : 1, nodes);
+    View view(out, form, "NodeData", view_name(field, field.name, model.units), step, vector ? 3 : 1, nodes);
     std::vector<double> value(std::max<std::size_t>(field.size(), 3), 0.0);
     for (int node = 0; node < model.mesh.nodes(); ++node) {
       read_field(field, views.at(node), value.data());
-      fmt::format_to(std::back_inserter(out), "{}", model.mesh.number[node]);
+      view.add(model.mesh.number[node]);
       // A support that is not there gives no reaction.
       for (std::size_t c = 0; c < (vector ? 3u : 1u); ++c)
-        add_number(out, vector && std::isnan(value[c]) ? 0.0 : value[c]);
-      out += '\n';
+        view.add(vector && std::isnan(value[c]) ? 0.0 : value[c]);
+      view.end_row();
     }
-    close_view(out, "NodeData");
+    view.close();
   }
 }
 
 // From [xx yy zz xy yz xz] to rows of the matrix.
 constexpr std::array<std::size_t, 9> kMatrix{0, 3, 5, 3, 1, 4, 5, 4, 2};
 
-void add_tensor_view(std::string& out, const Model& model, const NodalLayout& layout, const VtkArray& array,
-                     const Step& step) {
+void add_tensor_view(std::string& out, MshForm form, const Model& model, const NodalLayout& layout,
+                     const VtkArray& array, const Step& step) {
   const auto& values = std::get<std::vector<double>>(array.values);
   std::size_t rows = 0;
   for (std::size_t g = 0; g < model.groups.size(); ++g)
     if (model.groups[g].solid() && !layout.of_group[g].empty())
       rows += static_cast<std::size_t>(model.groups[g].elements());
-  open_view(out, "ElementNodeData", view_name(*array.field, array.name, model.units), step, 9, rows);
+  View view(out, form, "ElementNodeData", view_name(*array.field, array.name, model.units), step, 9, rows);
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (!group.solid() || layout.of_group[g].empty()) continue;
     const std::vector<int> order = foreign_nodes(*group.entry, group.entry->gmsh);
     for (int e = 0; e < group.elements(); ++e) {
-      fmt::format_to(std::back_inserter(out), "{} {}", group.element_numbers[e], order.size());
+      view.add(group.element_numbers[e]);
+      view.add(static_cast<int>(order.size()));
       for (int i : order) {
         const std::size_t at = static_cast<std::size_t>(e) * group.node_count() + static_cast<std::size_t>(i);
         const auto entry = static_cast<std::size_t>(layout.of_group[g][at]);
-        for (std::size_t c : kMatrix) add_number(out, values[entry * 6 + c]);
+        for (std::size_t c : kMatrix) view.add(values[entry * 6 + c]);
       }
-      out += '\n';
+      view.end_row();
     }
   }
-  close_view(out, "ElementNodeData");
+  view.close();
 }
 
-// A vector of three, or one component after the other.
-void add_element_views(std::string& out, const VtkArray& array, const std::vector<int>& elements,
-                       const std::map<int, std::size_t>& row_of, const Step& step, const UnitSystem& units) {
+// A vector of three, or one component after the other.  rows: of the elements, in the order of the file; -1: none.
+void add_element_views(std::string& out, MshForm form, const VtkArray& array, const std::vector<int>& elements,
+                       const std::vector<long>& rows, const Step& step, const UnitSystem& units) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto* values = std::get_if<std::vector<double>>(&array.values);
   if (values == nullptr) return;  // numbers of groups, materials, elements: the mesh says them
   const std::size_t together = array.field->shape == FieldShape::vector ? array.width : 1;
   for (std::size_t first = 0; first < array.width; first += together) {
     std::string name = array.name;
     if (together < array.width) name += "_" + array.components[first];
-    open_view(out, "ElementData", view_name(*array.field, name, units), step, static_cast<int>(together),
+    View view(out, form, "ElementData", view_name(*array.field, name, units), step, static_cast<int>(together),
               elements.size());
-    for (int number : elements) {
-      const auto row = row_of.find(number);
-      fmt::format_to(std::back_inserter(out), "{}", number);
+    for (std::size_t i = 0; i < elements.size(); ++i) {
+      view.add(elements[i]);
       for (std::size_t c = first; c < first + together; ++c)
-        if (row == row_of.end())
-          out += " nan";
-        else
-          add_number(out, (*values)[row->second * array.width + c]);
-      out += '\n';
+        view.add(rows[i] < 0 ? kNone : (*values)[static_cast<std::size_t>(rows[i]) * array.width + c]);
+      view.end_row();
     }
-    close_view(out, "ElementData");
+    view.close();
   }
+}
+
+// Of the elements of a file: the row of each among the active ones.
+std::vector<long> rows_of(const std::vector<int>& elements, const Solution& now) {
+  std::unordered_map<int, long> row_of;
+  for (const GroupData& data : now.groups())
+    if (data.active)
+      for (int number : data.group->element_numbers)
+        row_of.try_emplace(number, static_cast<long>(row_of.size()));
+  std::vector<long> rows(elements.size(), -1);
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    if (const auto row = row_of.find(elements[i]); row != row_of.end()) rows[i] = row->second;
+  return rows;
 }
 
 }  // namespace
 
 MshResults::MshResults(const std::filesystem::path& folder, const std::string& stem, const std::string& mesh,
-                       std::vector<int> elements)
-    : file_(folder / (stem + ".msh")), elements_(std::move(elements)) {
+                       std::vector<int> elements, MshForm form)
+    : file_(folder / (stem + ".msh")), elements_(std::move(elements)), form_(form) {
   file_.text() = mesh;
 }
 
@@ -131,15 +158,12 @@ void MshResults::add(const Model& model, const StepReport& report, const Solutio
   const Step step{StateTime(model).at(report), count_++};
   const NodalLayout layout = nodal_layout(model, *now.activity);
   std::string& out = file_.text();
-  add_node_views(out, model, now, table, step);
+  add_node_views(out, form_, model, now, table, step);
   for (const VtkArray& array : vtk_point_data(model, now, layout, table))
-    if (array.field->shape == FieldShape::tensor) add_tensor_view(out, model, layout, array, step);
-  std::map<int, std::size_t> row_of;
-  for (const GroupData& data : now.groups())
-    if (data.active)
-      for (int number : data.group->element_numbers) row_of.try_emplace(number, row_of.size());
+    if (array.field->shape == FieldShape::tensor) add_tensor_view(out, form_, model, layout, array, step);
+  const std::vector<long> rows = rows_of(elements_, now);
   for (const VtkArray& array : vtk_cell_data(model, now, table))
-    add_element_views(out, array, elements_, row_of, step, model.units);
+    add_element_views(out, form_, array, elements_, rows, step, model.units);
   file_.checkpoint();
 }
 

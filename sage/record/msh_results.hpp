@@ -1,5 +1,5 @@
-// STEM.msh: the mesh and all states as post-processing views of Gmsh (MSH 4.1 ASCII), for Gmsh, meshio and all
-// that reads either.
+// STEM.msh: the mesh and all states as post-processing views of Gmsh (MSH 4.1), for Gmsh and all that reads its files.  meshio
+// needs text: of binary files it reads only those whose elements have the numbers 1, 2, 3 ...
 //
 //   $NodeData         fields of nodes, at every node
 //   $ElementNodeData  stress and strain [xx xy xz, yx yy yz, zx zy zz] at the nodes of every solid, averaged over
@@ -10,6 +10,7 @@
 // has it.
 #pragma once
 
+#include "sage/model/foreign_element.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 
@@ -17,9 +18,9 @@ namespace sage {
 
 class MshResults final : public Output {
  public:
-  // mesh: the sections of the mesh; elements: their numbers in its order.  Throws OutputError.
+  // mesh: the sections of the mesh, in this form; elements: their numbers in its order.  Throws OutputError.
   MshResults(const std::filesystem::path& folder, const std::string& stem, const std::string& mesh,
-             std::vector<int> elements);
+             std::vector<int> elements, MshForm form);
 
   void on_increment(const Model&, const StepReport&, const Solution&) override;
   void on_failure(const Model&, const StepReport&, const std::string& reason, const Solution&) override;
@@ -38,6 +39,7 @@ class MshResults final : public Output {
 
   OutFile file_;
   std::vector<int> elements_;
+  MshForm form_;
   int count_ = 0;  // of states
   std::vector<std::filesystem::path> files_;
 };

@@ -35,11 +35,11 @@ TEST(CommandLine, HelpOfEverySubcommandNamesItsOptions) {
   const fs::path folder = empty_folder("help");
   const std::vector<std::pair<std::string, std::vector<const char*>>> commands = {
       {"", {"run", "check", "echo", "list", "tables", "--help", "--version", "Exit codes"}},
-      {"run", {"DECK",          "--output", "--solver",  "--tables",  "--nodes",       "--points",
-               "--no-listing",  "--vtu",    "--msh",     "--picture", "--field",       "--result",
-               "--states",      "--quiet",  "--layout",  "--strict",  "--formulation", "--element",
-               "--geometry",    "--refine", "--grade",   "--error",   "--converge",    "--max-dofs",
-               "--max-seconds", "--follow", "--coarsen", "--threads", "--kernels"}},
+      {"run", {"DECK",         "--output",      "--solver", "--tables",   "--nodes",   "--points",
+               "--no-listing", "--vtu",         "--msh",    "--msh-text", "--picture", "--field",
+               "--result",     "--states",      "--quiet",  "--layout",   "--strict",  "--formulation",
+               "--element",    "--geometry",    "--refine", "--grade",    "--error",   "--converge",
+               "--max-dofs",   "--max-seconds", "--follow", "--coarsen",  "--threads", "--kernels"}},
       {"check",
        {"DECK", "--layout", "--strict", "--formulation", "--element", "--geometry", "--refine", "--grade"}},
       {"echo", {"DECK", "--layout", "--strict"}},

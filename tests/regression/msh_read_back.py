@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Reads what `sagefe run --msh` writes, has meshio (Debian's python3-meshio) read it and, where it is installed, Gmsh (python3-gmsh), and
-compares with the CSV files.
+"""Reads what `sagefe run --msh` and `--msh-text` write, has meshio (Debian's python3-meshio) read the text and, where it is installed,
+Gmsh (python3-gmsh) both, and compares with the CSV files.
 
 Usage: msh_read_back.py SAGEFE SOURCE_FOLDER       exit code 77: a package is missing
 """
@@ -80,6 +80,78 @@ class Parsed:
         first = 2 if kind == "ElementNodeData" else 1
         split = (row.split() for row in rows_of)
         self.views[name] = (kind, {int(row[0]): numpy.array(row[first:], float) for row in split}, time)
+
+
+class Binary(Parsed):
+    """The same of a binary file."""
+
+    def __init__(self, file):
+        self.places, self.names, self.views, self.lines = {}, set(), {}, {}
+        self.types = set()
+        self.bytes, self.at = file.read_bytes(), 0
+        expect(self.bytes.startswith(b"$MeshFormat\n4.1 1 8\n\x01\0\0\0\n$EndMeshFormat\n"), "the format is not that of Gmsh")
+        while self.at < len(self.bytes):
+            section = self.line()[1:]
+            if section in ("NodeData", "ElementData", "ElementNodeData"):
+                self.view(section, None)
+            elif section in ("Nodes", "Elements", "Entities"):
+                getattr(self, section.lower())()
+            else:
+                end = self.bytes.index(f"\n$End{section}\n".encode(), self.at)
+                text = self.bytes[self.at : end].decode(errors="replace").splitlines()
+                self.at = end + 1
+                if section == "PhysicalNames":
+                    self.read_PhysicalNames(text)
+            if section in ("NodeData", "ElementData", "ElementNodeData", "Nodes", "Elements", "Entities"):
+                expect(self.line() == "", f"{section} has other bytes than it says")
+            expect(self.line() == f"$End{section}", f"{section} does not end where it should")
+
+    def line(self):
+        end = self.bytes.index(b"\n", self.at)
+        text = self.bytes[self.at : end].decode()
+        self.at = end + 1
+        return text
+
+    def take(self, kind, count):
+        found = numpy.frombuffer(self.bytes, kind, count, self.at)
+        self.at += found.nbytes
+        return found
+
+    def entities(self):
+        counts = self.take("<u8", 4)
+        expect(counts[3] == 0, "there are volumes")
+        for dimension, count in enumerate(counts):
+            for _ in range(count):
+                tag = self.take("<i4", 1)[0]
+                self.take("<f8", 3 if dimension == 0 else 6)
+                expect(self.take("<u8", 1)[0] == 1 and self.take("<i4", 1)[0] == tag, "an entity has another group")
+                expect(dimension == 0 or self.take("<u8", 1)[0] == 0, "an entity has bounds")
+
+    def nodes(self):
+        self.take("<u8", 4)
+        self.take("<i4", 3)
+        count = self.take("<u8", 1)[0]
+        tags, places = self.take("<u8", count), self.take("<f8", 3 * count)
+        self.places = dict(zip(tags.tolist(), places.reshape(-1, 3)))
+
+    def elements(self):
+        for _ in range(self.take("<u8", 4)[0]):
+            dimension, _, kind = self.take("<i4", 3).tolist()
+            self.types.add(kind)
+            nodes = {1: 2, 8: 3, 15: 1, 2: 3, 3: 4, 9: 6, 16: 8, 10: 9}[kind]
+            rows = self.take("<u8", self.take("<u8", 1)[0] * (1 + nodes)).reshape(-1, 1 + nodes).tolist()
+            if dimension < 2:
+                self.lines.update((tag, (kind, of)) for tag, *of in rows)
+
+    def view(self, kind, _):
+        texts = [self.line() for _ in range(8)]
+        name, time, numbers, count = texts[1].strip('"'), float(texts[3]), int(texts[6]), int(texts[7])
+        values = {}
+        for _ in range(count):
+            tag = self.take("<i4", 1)[0]
+            nodes = self.take("<i4", 1)[0] if kind == "ElementNodeData" else 1
+            values[int(tag)] = self.take("<f8", nodes * numbers)
+        self.views[name] = (kind, values, time)
 
 
 class Views:
@@ -171,19 +243,20 @@ def check_meshio(found, file):
 def check(program, source, out, case):
     deck, options, types, names = case
     path = source / "legacy_inputs" / deck
-    command = [program, "run", path, "-o", out, "--msh", "--nodes", "--points", "-q", *options]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    expect(done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stderr}")
     stem = path.parent.name if path.stem == "deck" else path.stem
-    for reader in (Parsed, Views) if gmsh else (Parsed,):
-        found = reader(out / f"{stem}.msh")
-        expect(found.types == types, f"types {found.types}")
-        expect(names <= found.names, f"physical groups {found.names}")
-        check_against_csv(found, out, stem)
-        check_meshio(found, out / f"{stem}.msh")
-        if deck == FRICTION:
-            strain = number(last_step(rows(out / f"{stem}.report1.csv"))[0]["axial_strain"])
-            near([time for _, _, time in found.views.values()], [strain] * len(found.views), "time")
+    for option, reader in (("--msh-text", Parsed), ("--msh", Binary)):
+        command = [program, "run", path, "-o", out, option, "--nodes", "--points", "-q", *options]
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        expect(done.returncode == 0, f"{command}: exit code {done.returncode}\n{done.stderr}")
+        for found in (reader(out / f"{stem}.msh"), *([Views(out / f"{stem}.msh")] if gmsh else [])):
+            expect(found.types == types, f"types {found.types}")
+            expect(names <= found.names, f"physical groups {found.names}")
+            check_against_csv(found, out, stem)
+            if reader is Parsed:
+                check_meshio(found, out / f"{stem}.msh")
+            if deck == FRICTION:
+                strain = number(last_step(rows(out / f"{stem}.report1.csv"))[0]["axial_strain"])
+                near([time for _, _, time in found.views.values()], [strain] * len(found.views), "time")
 
 
 def main():

@@ -30,12 +30,15 @@ TEST(RunKey, DependsOnEveryOptionOfResultsAndFiles) {
       [](RunRequest& r) { r.output.digits = 9; },
       [](RunRequest& r) { r.output.error = true; },
       [](RunRequest& r) { r.output.vtu = true; },
+      [](RunRequest& r) { r.output.msh_text = true; },
       [](RunRequest& r) { r.output.msh = true; },
       [](RunRequest& r) { r.output.result = true; },
       [](RunRequest& r) { r.output.pictures = {"conf"}; },
       [](RunRequest& r) { r.output.states = {"conf"}; },
       [](RunRequest& r) { r.output.fields = {"conf"}; },
-      [](RunRequest& r) { r.output.fields = {"co", "nf"}; },
+      [](RunRequest& r) {
+        r.output.fields = {"co", "nf"};
+      },
   };
   std::vector<std::string> keys{options_key({})};
   for (const Change& change : changes) keys.push_back(key_after(change));
