@@ -20,6 +20,7 @@
 #include "sage/messages/split_at.hpp"
 #include "sage/record/csv.hpp"
 #include "sage/record/profile_text.hpp"
+#include "sage/safety/critical_kh.hpp"
 #include "sage/safety/safety_text.hpp"
 #include "solvers/choose_solver.hpp"
 
@@ -42,6 +43,7 @@ struct SafetyOptions {
   int digits = kCsvDigits;
   std::filesystem::path folder = "out";
   bool profile = false;
+  std::string earthquake;  // "left", "right": search of the critical k_h; empty = none
 };
 
 // One mesh and what was found on it.
@@ -81,7 +83,8 @@ std::string requirement(const SafetyOptions& options, const Safety& found) {
       set.name, required, verdict);
 }
 
-MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue, int refine, Task& task) {
+MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue, int refine, Task& task,
+                        double kh = 0.0) {
   const Deck deck = read_input(options.deck, options.input);
   BuildOptions build = options.input.build;
   if (!options.solver.empty()) build.solver = solver_code(catalogue, options.solver);
@@ -90,7 +93,7 @@ MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue
   MeshResult result;
   if (refine > 0) result.options = fmt::format("--refine {}", build.refine);
   result.model = std::make_unique<Model>(build_model(deck, catalogue, build));
-  if (refine == 0) report(options, result.model->diagnostics);
+  if (refine == 0 && kh == 0.0) report(options, result.model->diagnostics);
   for (const Group& group : result.model->groups) result.elements += group.elements();
   result.dofs = DofMap(*result.model).dofs();
   if (refine > 0 && result.dofs > options.max_dofs) return result;
@@ -102,6 +105,10 @@ MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue
   settings.pulse = task.pulse();
   safety::Options search = options.search;
   search.stage = options.stage - 1;
+  if (kh != 0.0) {
+    safety::add_earthquake(*result.model, search.stage, kh);
+    search.stage = -1;
+  }
   with_umat_output(options.deck,
                    [&] { result.found = safety::find_safety(*result.model, catalogue, settings, search); });
   return result;
@@ -271,9 +278,54 @@ int find_one(const SafetyOptions& options, const Catalogue& catalogue) {
   });
 }
 
+Json critical_json(const SafetyOptions& options, const safety::CriticalKh& found) {
+  const auto number = [](std::optional<double> value) { return value ? Json(*value) : Json(nullptr); };
+  Json trials = Json::array();
+  for (const safety::KhTrial& trial : found.trials)
+    trials.push_back({{"kh", trial.kh},
+                      {"lower", number(trial.lower)},
+                      {"upper", number(trial.upper)},
+                      {"stands", trial.stands()},
+                      {"falls", trial.falls()}});
+  return {{"deck", json_text(options.deck)}, {"direction", options.earthquake},
+          {"lower", number(found.lower)},    {"upper", number(found.upper)},
+          {"complete", found.complete()},    {"incomplete", json_text(found.incomplete)},
+          {"trials", std::move(trials)}};
+}
+
+// --critical-kh: at which horizontal acceleration the factor is 1.
+int find_kh(const SafetyOptions& options, const Catalogue& catalogue) {
+  return guarded(options.deck, [&] {
+    keep_input(options.deck);
+    const InterruptWatch watch;
+    const std::string stem = stem_of(options) + ".critical_kh";
+    ResultFiles results(options.folder, stem, {options.deck, 0, "safety"});
+    Task task(options.deck);
+    const double sign = options.earthquake == "left" ? -1.0 : 1.0;
+    const safety::CriticalKh found = safety::find_critical_kh(
+        [&](double kh) { return find_on_mesh(options, catalogue, 0, task, sign * kh).found; },
+        options.search.limits.tolerance);
+    const std::filesystem::path file = options.folder / (stem + ".csv");
+    write_file(file, safety::to_csv(found, options.digits));
+    say_left(options.deck, results.close());
+    const ProgressPause pause;
+    fmt::print("{}: factor of safety under a horizontal acceleration k_h g to the {}\n{}", options.deck,
+               options.earthquake, safety::to_text(found));
+    print_files({file});
+    if (Json* json = answer()) {
+      *json = critical_json(options, found);
+      (*json)["files"] = files_json({file});
+    }
+    if (found.stopped) say_error(options.deck, "interrupted: what was found so far stands above", "S511");
+    if (!found.stopped && !found.complete()) say_error(options.deck, found.incomplete, "S515");
+    return found.stopped ? kInterrupted : found.complete() ? kOk : kNotConverged;
+  });
+}
+
 // One search per set of factors.
 int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
   const std::vector<PartialFactors>& sets = options.input.build.factors;
+  if (sets.size() < 2 && !options.earthquake.empty()) return find_kh(options, catalogue);
   if (sets.size() < 2) return find_one(options, catalogue);
   if (answer() != nullptr) {
     say_error(options.deck, "--json holds one answer: give one set of --factors at a time", "S742");
@@ -283,7 +335,7 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
   for (const PartialFactors& set : sets) {
     SafetyOptions one = options;
     one.input.build.factors = {set};
-    worst = std::max(worst, find_one(one, catalogue));
+    worst = std::max(worst, one.earthquake.empty() ? find_one(one, catalogue) : find_kh(one, catalogue));
     if (worst == kInterrupted) break;
   }
   return worst;
@@ -380,10 +432,17 @@ Command safety_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("DECK", o->deck, "deck to be analysed")->required();
   add_search_options(parser, *o);
   add_choice_options(parser, *o);
+  auto* const converge =
+      parser
+          .add_option("--converge", o->converge,
+                      "refine the mesh until the factor changes by less than this share, e.g. 0.01")
+          ->check(number_in(1e-6, 0.5, "a relative change from 1e-6 to 0.5"));
   parser
-      .add_option("--converge", o->converge,
-                  "refine the mesh until the factor changes by less than this share, e.g. 0.01")
-      ->check(number_in(1e-6, 0.5, "a relative change from 1e-6 to 0.5"));
+      .add_option("--critical-kh", o->earthquake,
+                  "find the horizontal acceleration (in g) to the left or right at which the factor is 1; "
+                  "--tolerance is the width of its bracket")
+      ->check(CLI::IsMember({"left", "right"}))
+      ->excludes(converge);
   parser.add_option("--max-dofs", o->max_dofs, "with --converge: largest model (default 60000)")
       ->check(CLI::PositiveNumber);
   parser.add_option("--solver", o->solver, "solver by name (see sagefe list solvers)")

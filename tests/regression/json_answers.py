@@ -178,6 +178,9 @@ def check_others(folder):
     expect(safety["complete"] and safety["lower"] < safety["upper"] <= safety["lower"] + 0.05, "bracket", safety["lower"])
     expect(all((folder / file).exists() for file in safety["files"]), "files of a safety factor")
     answer(folder, "safety", DECK, "-o", "out", code=2)
+    gentle = SOURCE / "legacy_inputs/slopes/griffiths_lane/deck.dat"  # its foot is on the left
+    kh = answer(folder, "safety", str(gentle), "--critical-kh", "left", "--tolerance", ".1", "-o", "out")["result"]
+    expect(kh["complete"] and 0 <= kh["lower"] < kh["upper"] <= kh["lower"] + 0.101, "critical k_h", kh)
     bounds = answer(folder, "bounds", str(slope), "--elements", "300", "-o", "out")["result"]
     expect(bounds["lower"]["value"] <= bounds["upper"]["value"] <= 1.1 * bounds["lower"]["value"], "bounds", bounds)
     pushed = SOURCE / "legacy_inputs/smith_griffiths/p63.dat"  # a footing that is moved

@@ -13,6 +13,7 @@
 #include "elements/register_elements.hpp"
 #include "materials/register_materials.hpp"
 #include "sage/model/water.hpp"
+#include "sage/safety/critical_kh.hpp"
 #include "sage/safety/safety_text.hpp"
 #include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"
@@ -379,6 +380,46 @@ INSTANTIATE_TEST_SUITE_P(
                     Wall{"anchored", scenes::anchored_sheet_pile(), 0.0, 1.0, 2.28, 2.31},
                     Wall{"anchored, joints divided", scenes::anchored_sheet_pile(), 0.0, 2.0, 2.25, 2.27,
                          true}));
+
+// A block on a joint along a plane at 20 degrees, phi = 40: k_h = tan(phi - 20) towards the foot of the plane.
+TEST(Safety, CriticalAccelerationOfABlockOnAPlane) {
+  const double b = 20.0 * kDegree;
+  const Vector2 along(std::cos(b), std::sin(b)), up(-std::sin(b), std::cos(b));
+  DeckWriter deck(1);
+  const auto node = [&](int number, const Vector2& place) { deck.node(number, place.x(), place.y()); };
+  node(1, {0.0, 0.0});
+  node(2, 2.0 * along);
+  node(3, {0.0, 0.0});
+  node(4, 2.0 * along);
+  node(5, 2.0 * along + 0.2 * up);
+  node(6, 0.2 * up);
+  deck.material(1, 1, {1e6, 0.3}, 20.0);
+  deck.material(2, 23, {1e6, 1e6, 0.0, 40.0});
+  deck.group(1, 1, 1, 1);
+  deck.group(2, 11, 0, 2);
+  deck.element(1, 1, {3, 4, 5, 6});
+  deck.element(2, 2, {1, 2, 4, 3});
+  deck.fix(1, 1, 1);
+  deck.fix(2, 1, 1);
+  deck.stage().gravity_y = -1.0;
+  const scenes::Workbench bench = make_workbench();
+  Options options;
+  options.reduce = {ModelPart::joints};
+  options.limits.tolerance = 0.004;
+  const CriticalKh found = find_critical_kh(
+      [&](double kh) {
+        Model model = bench.build(deck.text());
+        if (kh > 0.0) add_earthquake(model, -1, -kh);
+        Safety safety = find_safety(model, bench.catalogue(), bench.settings(), options);
+        safety.mechanism.reset();
+        return safety;
+      },
+      0.01);
+  ASSERT_TRUE(found.complete()) << to_text(found);
+  EXPECT_LE(*found.lower, std::tan(b)) << to_text(found);
+  EXPECT_GE(*found.upper, std::tan(b)) << to_text(found);
+  EXPECT_NEAR(*found.trials.front().lower, std::tan(2.0 * b) / std::tan(b), 0.01) << "without an earthquake";
+}
 
 // Far below its limit of 5.17, and between factors of 1.656 and 1.8 without equilibrium in brackets of .002 until histories
 // followed damped motion: joints of the wall's tip opened and closed in turns.

@@ -1,6 +1,11 @@
 // The search alone: a body that falls at a known factor is found from everywhere, in a bracket of the width asked for.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "sage/safety/critical_kh.hpp"
 #include "sage/safety/factor_search.hpp"
 
 namespace sage::safety {
@@ -48,6 +53,47 @@ TEST(FactorSearch, SecondTrialMayStand) {
   EXPECT_FALSE(one.bracketed());
   EXPECT_EQ(one.upper(), 1.5);
   EXPECT_NEAR(one.next().value_or(0.0), 1.403, 1e-12);
+}
+
+// A block on a plane: F = tan(phi) (cos b - k sin b) / (sin b + k cos b), 1 at k = tan(phi - b).  Brackets of F that hold 1
+// say nothing about k.
+TEST(CriticalKh, IsBracketedWhereTheFactorIsOne) {
+  for (const double excess : {0.5, 3.0, 20.0, 60.0})
+    for (const double tolerance : {0.05, 0.005, 0.001}) {
+      const double b = 0.2, phi = b + excess * std::numbers::pi / 180.0, critical = std::tan(phi - b);
+      int trials = 0;
+      const CriticalKh found = find_critical_kh(
+          [&](double k) {
+            ++trials;
+            const double F = std::tan(phi) * (std::cos(b) - k * std::sin(b)) / (std::sin(b) + k * std::cos(b));
+            Safety safety;
+            safety.lower = F - 0.3 * tolerance;
+            safety.upper = F + 0.3 * tolerance;
+            return safety;
+          },
+          tolerance);
+      ASSERT_TRUE(found.complete()) << excess << " " << tolerance << " " << found.incomplete;
+      EXPECT_LE(*found.lower, critical);
+      EXPECT_GE(*found.upper, critical);
+      EXPECT_LE(*found.upper - *found.lower, tolerance * (1.0 + 1e-6));
+      EXPECT_LE(trials, 14);
+    }
+}
+
+TEST(CriticalKh, NamesWhyThereIsNone) {
+  const auto of = [](double F, const std::string& incomplete) {
+    return find_critical_kh(
+        [&](double) {
+          Safety safety;
+          safety.lower = F - 0.001;
+          safety.upper = F + 0.001;
+          safety.incomplete = incomplete;
+          return safety;
+        },
+        0.01);
+  };
+  EXPECT_NE(of(0.9, "").incomplete.find("without an earthquake"), std::string::npos);
+  EXPECT_NE(of(3.0, "").incomplete.find("still in equilibrium"), std::string::npos);
 }
 
 }  // namespace
