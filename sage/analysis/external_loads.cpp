@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sage/model/active_dofs.hpp"
+#include "sage/model/saturated_weight.hpp"
 #include "sage/model/spread_loads.hpp"
 
 namespace sage {
@@ -47,12 +48,19 @@ void add_edge_loads(const Model& model, const std::vector<char>& active, const S
   }
 }
 
-void add_body_forces(const Model& model, const Group& group, const Vector2& gravity, LoadSum& sum) {
+void add_body_forces(const Model& model, std::size_t g, const Vector2& gravity, int stage, LoadSum& sum) {
+  const Group& group = model.groups[g];
   const Vector2 b = gravity * weight_density(model, group);
-  if (b.isZero(0.0)) return;
-  for (int e = 0; e < group.elements(); ++e)
+  for (int e = 0; e < group.elements() && !b.isZero(0.0); ++e)
     sum.add(group, e,
             [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) { group.element->body_load(x, b, f); });
+  const WaterCard* const line = gravity.isZero(0.0) ? nullptr : saturating_line(model, stage, g);
+  if (line == nullptr) return;
+  add_saturation_weight(model, g, *line, gravity, [&](int element, std::span<const double> weight) {
+    sum.add(group, element, [&](const Eigen::Matrix2Xd&, std::vector<double>& f) {
+      std::copy(weight.begin(), weight.end(), f.begin());
+    });
+  });
 }
 
 // Point loads of a stage, in every field.
@@ -69,12 +77,13 @@ void drop_inactive(const std::vector<char>& active, Eigen::VectorXd& force) {
 
 }  // namespace
 
-Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity) {
+Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity,
+                          int stage) {
   const DofMap map(model);
   Eigen::VectorXd force = Eigen::VectorXd::Zero(map.dofs());
   LoadSum sum(model, map, force);
   for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (groups[g]) add_body_forces(model, model.groups[g], gravity, sum);
+    if (groups[g]) add_body_forces(model, g, gravity, stage, sum);
   return force;
 }
 
@@ -100,7 +109,7 @@ Eigen::VectorXd external_force(const Model& model, int last) {
     for (std::size_t g = 0; g < groups.size(); ++g) groups[g] = groups[g] && activity.group[g];
     add_edge_loads(model, groups, stages[s], sum);
   }
-  return force + weight_of(model, activity.group, gravity);
+  return force + weight_of(model, activity.group, gravity, last);
 }
 
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity) {

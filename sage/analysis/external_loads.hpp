@@ -12,8 +12,10 @@ namespace sage {
 // stage, nor, once it was removed, on what is activated there later.  One entry per dof, axes (x, y).
 Eigen::VectorXd external_force(const Model& model, int last);
 
-// Weight of groups (one flag each) under gravity, in multiples of the materials' unit weight.  One entry per dof.
-Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity);
+// Weight of groups (one flag each) under gravity, in multiples of the materials' unit weight; stage (0-based): whose phreatic
+// lines say what is saturated.  One entry per dof.
+Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, const Vector2& gravity,
+                          int stage);
 
 // Nodal and edge loads that a stage (0-based) itself adds to what is active in it.  One entry per dof.
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity);

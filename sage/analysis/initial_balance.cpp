@@ -92,7 +92,7 @@ InitialImbalance initial_imbalance(const Model& model) {
   assembly.start_states(true, [&](std::vector<GroupData>& groups) {
     apply_own_starts(model, groups);
     for (const std::vector<InitialStress>* list : {&model.initials, &first.initials})
-      apply_initials(model, *list, pressed, groups, refused);
+      apply_initials(model, {0, activity.group}, *list, pressed, groups, refused);
   });
   if (assembly.evaluate(Eigen::VectorXd::Zero(activity.dof_map.dofs()), nullptr) == Outcome::cut_step)
     return {};

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "sage/analysis/step_time.hpp"
 #include "sage/core/start_adjustment.hpp"
@@ -20,9 +22,22 @@ Vector4 geostatic_stress(const InitialStress& initial, double y, double u) {
   return {K0 * vertical, vertical, K0 * vertical, 0.0};
 }
 
-// Stress of a solid point as the deck states it, turned to tension positive.  u: pore pressure there.
-Vector4 solid_stress(const InitialStress& initial, const Vector2& x, double u) {
+// The same from the weight above.  K0 = K0nc OCR^sin(phi) (Mayne & Kulhawy 1982) with sin(phi) = 1 - K0nc (Jaky 1944), OCR of
+// the effective vertical stress.
+Vector4 stress_at_rest(const InitialStress& initial, double weight_above, double u) {
+  const double K0nc = initial.value[0], ocr = initial.value[1], pop = initial.value[2];
+  const double vertical = initial.value[3] + weight_above - u;
+  const double preconsolidation = std::max(ocr * vertical, vertical + pop);
+  const double K0 = vertical > 0.0 ? K0nc * std::pow(preconsolidation / vertical, 1.0 - K0nc) : K0nc;
+  return {K0 * vertical, vertical, K0 * vertical, 0.0};
+}
+
+// Stress of a solid point as the deck states it, turned to tension positive.  u: pore pressure there.  above: known where
+// some card needs it.
+Vector4 solid_stress(const InitialStress& initial, const Vector2& x, double u, const Overburden* above) {
   switch (initial.kind) {
+    case InitialKind::at_rest:
+      return -stress_at_rest(initial, above->above(x).stress, u);
     case InitialKind::geostatic:
       return -geostatic_stress(initial, x.y(), u);
     case InitialKind::uniform:
@@ -88,12 +103,13 @@ void start_point(const Law<N>& law, const Vector<N>& sigma, std::size_t point, S
 // bars.
 template <int N>
 Vector<N> initial_stress(const InitialStress& initial, const InitialStress* neighbour, const Group& group,
-                         const Eigen::Matrix2Xd& x, int point, double u, double spacing) {
+                         const Eigen::Matrix2Xd& x, int point, double u, double spacing,
+                         const Overburden* above) {
   if constexpr (N == 4)
-    if (group.solid()) return solid_stress(initial, group.element->position(x, point), u);
+    if (group.solid()) return solid_stress(initial, group.element->position(x, point), u, above);
   if constexpr (N == 2)
     if (neighbour != nullptr)
-      return traction(solid_stress(*neighbour, group.element->position(x, point), u), x);
+      return traction(solid_stress(*neighbour, group.element->position(x, point), u, above), x);
   Vector<N> sigma = Vector<N>::Zero();
   if (initial.kind == InitialKind::uniform)
     for (int i = 0; i < N; ++i) sigma[i] = -initial.value[i];
@@ -143,7 +159,7 @@ void report_start(const StartCount& count, const InitialStress& initial, const G
 }  // namespace
 
 void apply_initial_stress(const Model& model, const InitialStress& initial, const PorePressure* water,
-                          GroupData& data, Diagnostics& diagnostics) {
+                          const Overburden* above, GroupData& data, Diagnostics& diagnostics) {
   const Group& group = *data.group;
   const ElementTraits& traits = group.element->traits();
   const InitialStress* neighbour =
@@ -163,7 +179,7 @@ void apply_initial_stress(const Model& model, const InitialStress& initial, cons
       const double u = pressure_at(model, water, data, neighbour, x, e, p);
       std::visit(
           [&]<int N>(const Law<N>* law) {
-            start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p, u, spacing), point,
+            start_point<N>(*law, initial_stress<N>(initial, neighbour, group, x, p, u, spacing, above), point,
                            data.state, count);
           },
           data.law);
@@ -229,11 +245,28 @@ void apply_own_starts(const Model& model, std::vector<GroupData>& groups) {
   }
 }
 
-void apply_initials(const Model& model, const std::vector<InitialStress>& initials, const PorePressure* water,
-                    std::vector<GroupData>& groups, Diagnostics& diagnostics) {
+namespace {
+
+// Of the active solids, where some card of the model needs it: an interface may take the traction of a group that another card
+// speaks of.
+std::optional<Overburden> overburden_for(const Model& model, const GroundOfStage& ground) {
+  const auto needs = [](const std::vector<InitialStress>& list) {
+    return std::ranges::find(list, InitialKind::at_rest, &InitialStress::kind) != list.end();
+  };
+  const bool any = needs(model.initials) ||
+                   std::ranges::any_of(model.stages, [&](const Stage& stage) { return needs(stage.initials); });
+  return any ? std::optional<Overburden>(std::in_place, model, ground.active, ground.stage) : std::nullopt;
+}
+
+}  // namespace
+
+void apply_initials(const Model& model, const GroundOfStage& ground, const std::vector<InitialStress>& initials,
+                    const PorePressure* water, std::vector<GroupData>& groups, Diagnostics& diagnostics) {
+  const std::optional<Overburden> above = overburden_for(model, ground);
   for (const InitialStress& initial : initials)
     if (states_stress(initial.kind) || initial.kind == InitialKind::zero)
-      apply_initial_stress(model, initial, water, groups[initial.group], diagnostics);
+      apply_initial_stress(model, initial, water, above ? &*above : nullptr, groups[initial.group],
+                           diagnostics);
   for (const InitialStress& initial : initials)
     if (initial.kind == InitialKind::history) apply_initial_history(model, initial, groups[initial.group]);
 }

@@ -9,9 +9,9 @@
 namespace sage {
 
 // Sets the committed stress and history of a group's points.  Stress that a law can't carry is reported as a
-// warning in `diagnostics` with the number of points.
+// warning in `diagnostics` with the number of points.  above: for cards of InitialKind::at_rest.
 void apply_initial_stress(const Model& model, const InitialStress& initial, const PorePressure* water,
-                          GroupData& data, Diagnostics& diagnostics);
+                          const Overburden* above, GroupData& data, Diagnostics& diagnostics);
 
 // Sets the history that a card of InitialKind::history states.  Throws InputError where the law refuses it.
 void apply_initial_history(const Model& model, const InitialStress& initial, GroupData& data);
@@ -23,8 +23,13 @@ void apply_own_starts(const Model& model, std::vector<GroupData>& groups);
 
 // All cards of the model or of a stage: stresses, then histories, which count from what the stresses have made.
 // water: of the stage, where the model has some: the weights of geostatic cards then are total ones.
-void apply_initials(const Model& model, const std::vector<InitialStress>& initials, const PorePressure* water,
-                    std::vector<GroupData>& groups, Diagnostics& diagnostics);
+// ground: whose weight lies above the points of cards at rest.
+struct GroundOfStage {
+  int stage = 0;                    // 0-based
+  const std::vector<char>& active;  // groups, a flag each
+};
+void apply_initials(const Model& model, const GroundOfStage& ground, const std::vector<InitialStress>& initials,
+                    const PorePressure* water, std::vector<GroupData>& groups, Diagnostics& diagnostics);
 
 // What the water cards of a stage (0-based) change of states: water of undrained groups is shut in, the excess of
 // drained ones taken out of their pressure, so that it is let go over the stage.

@@ -18,7 +18,6 @@ void StageStart::start_first_states() {
   choose_laws(0);
   run_.assembly().start_states(has_own_start(model),
                                [&](std::vector<GroupData>& groups) { apply_own_starts(model, groups); });
-  if (model.water.empty()) return start_states(0, run_.system.activity(), model.initials, false);
   Activity first(model);
   first.enter(model.stages.front());
   start_states(0, first, model.initials, false);
@@ -132,7 +131,7 @@ void StageStart::start_states(int stage, const Activity& activity, const std::ve
   const std::optional<PorePressure> water =
       initials.empty() ? std::nullopt : run_.water_at(stage, activity, stage > 0 ? &run_.state.u : nullptr);
   run_.assembly().start_states(!initials.empty() || changes, [&](std::vector<GroupData>& groups) {
-    apply_initials(run_.model, initials, water ? &*water : nullptr, groups, warnings);
+    apply_initials(run_.model, {stage, activity.group}, initials, water ? &*water : nullptr, groups, warnings);
     if (changes) apply_drainage(run_.model, stage, groups);
   });
   run_.warn(warnings.list());

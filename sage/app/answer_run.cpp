@@ -19,6 +19,8 @@ const char* kind_word(ReportKind kind) {
       return "point";
     case ReportKind::discharge:
       return "discharge";
+    case ReportKind::uplift:
+      return "uplift";
   }
   return "";
 }

@@ -109,6 +109,8 @@ class GroundMaker {
       if (material.law_name != "mohr_coulomb" && material.law_name != "drucker_prager")
         no("they need mohr_coulomb or drucker_prager");
       if (!material.variants.empty()) no("its law differs by point or stage; they take one law for each group");
+      if (material.saturated_unit_weight > 0.0)
+        no("its weight changes at the phreatic line; give the soil below the line a material of its own");
       if (material.undrained) no("its undrained pore pressure is no given load; use the undrained strength");
       const double limit = material.parameter(ParameterRole::tension_limit).value_or(-1.0);
       const Strength s = strength_of(material).in_plane();

@@ -382,6 +382,7 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   material.name = b.text(card, "name");
   material.code = card.integer("law");
   material.unit_weight = card.real("unit_weight");
+  material.saturated_unit_weight = card.real("saturated_unit_weight");
   material.where = card.where();
   const MaterialEntry* entry = b.catalogue.materials.find(material.code);
   const std::string name = "material " + std::to_string(material.number);
@@ -389,6 +390,11 @@ void read_material(Builder& b, const CardView& card, const std::vector<CardView>
   if (!b.material_index.try_emplace(material.number, static_cast<int>(b.model.materials.size())).second)
     b.error("S205", card.where("number"), name + " is defined twice");
   b.usable(card, "unit_weight", material.unit_weight);
+  b.usable(card, "saturated_unit_weight", material.saturated_unit_weight);
+  if (material.saturated_unit_weight != 0.0 && !(material.saturated_unit_weight >= material.unit_weight))
+    b.error("S210", card.where("saturated_unit_weight"),
+            name + ": the saturated unit weight is at least the unit weight, " +
+                rounded_text(material.unit_weight));
   if (card.blank("unit_weight")) b.blank_weights.push_back(material.number);
   b.model.materials.push_back(std::move(material));
   Material& m = b.model.materials.back();

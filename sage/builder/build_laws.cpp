@@ -106,9 +106,10 @@ class GroundStress {
     for (const std::vector<InitialStress>* list : lists)
       for (const InitialStress& initial : *list)
         if (initial.group == group &&
-            (initial.kind == InitialKind::uniform || initial.kind == InitialKind::geostatic))
+            (initial.kind == InitialKind::uniform || initial.kind == InitialKind::geostatic ||
+             initial.kind == InitialKind::at_rest))
           stated_ = &initial;
-    if (stated_ == nullptr) above_.emplace(model, activity.group);
+    if (stated_ == nullptr || stated_->kind == InitialKind::at_rest) above_.emplace(model, activity.group, 0);
     if (!model.water.empty()) water_.emplace(model, 0, activity.group, activity.dof_map, nullptr);
   }
 
@@ -117,6 +118,7 @@ class GroundStress {
     const double u = water_ ? water_->at_point(static_cast<std::size_t>(group_), element, point) : 0.0;
     if (stated_ == nullptr) return above_->above(place).stress - u;
     const auto& v = stated_->value;
+    if (stated_->kind == InitialKind::at_rest) return v[3] + above_->above(place).stress - u;
     return v[3] + v[1] * (v[0] - place.y()) - u;
   }
 

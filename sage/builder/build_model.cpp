@@ -165,6 +165,18 @@ void add_requested_points(Builder& b) {
   }
 }
 
+// Without water and weight there is no factor; a line that stands upright carries nothing.
+void check_uplift_line(Builder& b, const CardView& card, const Report& report) {
+  if (!b.nodes_known || report.nodes.empty()) return;
+  const auto [low, high] =
+      std::ranges::minmax(report.nodes, {}, [&](int node) { return b.model.mesh.x(0, node); });
+  if (!(b.model.mesh.x(0, high) - b.model.mesh.x(0, low) > b.model.mesh.reach))
+    b.error("S242", card.where(card.blank("nodes") ? "first" : "nodes"),
+            "uplift needs a line of nodes of some width along x");
+  if (!(b.model.units.water_unit_weight > 0.0))
+    b.error("S242", card.where(), "uplift needs the unit weight of water of the unit card, and a water card");
+}
+
 }  // namespace
 
 void build_reports(Builder& b) {
@@ -172,10 +184,10 @@ void build_reports(Builder& b) {
     Report report;
     report.where = card.where();
     const int kind = card.integer("kind", 1);
-    if (kind < 1 || kind > 4) {
-      b.error(
-          "S210", card.where("kind"),
-          "report kind " + std::to_string(kind) + " is unknown; 1 triaxial, 2 nodes, 3 a point, 4 a discharge");
+    if (kind < 1 || kind > 5) {
+      b.error("S210", card.where("kind"),
+              "report kind " + std::to_string(kind) +
+                  " is unknown; 1 triaxial, 2 nodes, 3 a point, 4 a discharge, 5 uplift");
       continue;
     }
     report.kind = static_cast<ReportKind>(kind);
@@ -217,9 +229,11 @@ void build_reports(Builder& b) {
                     (b.model.geometry == Geometry::axisymmetric ? "all of which lie on the axis"
                                                                 : "which have no width along x"));
     }
-    if (report.kind == ReportKind::discharge)
+    if (report.kind == ReportKind::discharge || report.kind == ReportKind::uplift)
       note_unused(b, card, {"height", "area", "cell_pressure"},
-                  "a discharge needs the nodes of its line alone");
+                  report.kind == ReportKind::uplift ? "uplift needs the nodes of its line alone"
+                                                    : "a discharge needs the nodes of its line alone");
+    if (report.kind == ReportKind::uplift) check_uplift_line(b, card, report);
     b.model.reports.push_back(std::move(report));
   }
   add_requested_points(b);

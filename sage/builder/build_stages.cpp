@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <locale>
+#include <numbers>
 #include <optional>
 #include <sstream>
 
@@ -327,7 +328,7 @@ void read_edge_action(Builder& b, const CardView& card, Stage& stage) {
 int values_of(InitialKind kind, const Group* group) {
   const bool known = group != nullptr && group->element;
   if (kind == InitialKind::uniform) return known ? group->entry->law_size : 4;
-  if (kind == InitialKind::geostatic) return 4;
+  if (kind == InitialKind::geostatic || kind == InitialKind::at_rest) return 4;
   if (kind == InitialKind::parameter) return 4;
   const bool one =
       kind == InitialKind::traction || kind == InitialKind::lock_off || kind == InitialKind::material;
@@ -424,17 +425,43 @@ bool read_history(Builder& b, const CardView& card, InitialStress& initial) {
   return false;
 }
 
+// Blank or 0: K0 by Jaky from the law's angle of friction, OCR 1.  False, and an error, where a value is impossible.
+bool read_at_rest(Builder& b, const CardView& card, const Group& group, InitialStress& initial) {
+  double &K0 = initial.value[0], &ocr = initial.value[1], &pop = initial.value[2];
+  const auto reject = [&](const char* field, const std::string& wanted) {
+    b.error("S236", card.where(field),
+            "group " + std::to_string(group.number) + ", earth pressure at rest: " + wanted);
+    return false;
+  };
+  if (group.element && !group.solid()) return reject("kind", "kind 8 is for solids; interfaces take kind 3");
+  if (ocr == 0.0) ocr = 1.0;
+  if (!(ocr >= 1.0)) return reject("v2", "OCR (value 2) is 1 or more");
+  if (!(pop >= 0.0)) return reject("v3", "POP (value 3) is a stress of 0 or more");
+  if (K0 == 0.0 && b.materials_known) {
+    const std::optional<double> angle = b.model.material_of(group).parameter(ParameterRole::friction_angle);
+    if (!angle || !(*angle > 0.0))
+      return reject("v1",
+                    "K0 of normally consolidated soil (value 1) is blank and the law has no angle of friction "
+                    "to find it from (1 - sin phi)");
+    K0 = 1.0 - std::sin(*angle * std::numbers::pi / 180.0);
+  }
+  if (b.materials_known && !(K0 > 0.0 && K0 <= 1.0))
+    return reject("v1",
+                  "K0 of normally consolidated soil (value 1) is above 0 and at most 1; OCR or POP raise it");
+  return true;
+}
+
 void read_initial(Builder& b, const CardView& card, bool in_stage, std::vector<InitialStress>& out) {
   InitialStress initial;
   initial.where = card.where();
   const int kind = card.integer("kind");
   const int number = card.integer("group");
-  if (kind < 0 || kind > 7) {
+  if (kind < 0 || kind > 8) {
     b.error(
         "S210", card.where("kind"),
         "initial stress kind " + std::to_string(kind) +
             " is unknown; 0 uniform, 1 geostatic, 2 zero, 3 traction of the neighbours, 4 history of the law, "
-            "5 lock-off, 6 another material, 7 a parameter that grows with depth or stress");
+            "5 lock-off, 6 another material, 7 a parameter that grows with depth or stress, 8 at rest");
     return;
   }
   initial.kind = static_cast<InitialKind>(kind);
@@ -460,6 +487,7 @@ void read_initial(Builder& b, const CardView& card, bool in_stage, std::vector<I
     if (initial.kind == InitialKind::geostatic && b.model.groups[g].element && b.model.groups[g].structure())
       b.error("S236", card.where("kind"), "kind 1 (geostatic) is for solids; structures take kind 0 or 2");
     initial.group = static_cast<int>(g);
+    if (initial.kind == InitialKind::at_rest && !read_at_rest(b, card, b.model.groups[g], initial)) return;
     const bool of_law = is_about_law(initial.kind) || initial.kind == InitialKind::lock_off;
     if (of_law && !read_law_card(b, card, in_stage, initial, out)) return;
     if (initial.kind == InitialKind::history && b.materials_known && b.model.groups[g].element &&

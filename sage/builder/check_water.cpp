@@ -168,7 +168,7 @@ void warn_of_uplift(Builder& b, const Activity& activity, const PorePressure& wa
                     double gravity) {
   if (!(gravity > 0.0)) return;
   const Model& model = b.model;
-  const Overburden above(model, activity.group);
+  const Overburden above(model, activity.group, water.stage());
   const OnTheGround structures(model, water.stage(), activity.group);
   int places = 0, worst_element = 0;
   double worst = 0.0;

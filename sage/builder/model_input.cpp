@@ -121,6 +121,8 @@ void InputCards::add_material(const MaterialInput& material, int number) {
   std::vector<NewField> fields{
       {"number", static_cast<double>(number)}, {"law", code}, {"unit_weight", material.unit_weight}};
   if (!material.name.empty()) fields.push_back({"name", 0.0, {}, material.name});
+  if (material.saturated_unit_weight != 0.0)
+    fields.push_back({"saturated_unit_weight", material.saturated_unit_weight});
   const int card = add("material", fields);
   const MaterialEntry* entry = catalogue_.materials.find(static_cast<int>(code));
   if (entry == nullptr) return;

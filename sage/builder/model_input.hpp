@@ -18,6 +18,7 @@ struct MaterialInput {
   std::map<std::string, double> parameters;  // by name; those left out have the law's own value, if it has one
   double unit_weight = 0.0;
   std::string name = {};
+  double saturated_unit_weight = 0.0;  // of solids below a phreatic line; 0: the same
 };
 
 struct GroupInput {

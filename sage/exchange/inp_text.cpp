@@ -139,6 +139,9 @@ class InpWriter {
         warning("material " + std::to_string(material.number) + " (" + material.law_name +
                 "): only its elastic constants are written");
       if (material.unit_weight > 0.0) text_ += fmt::format("*DENSITY\n{}\n", material.unit_weight);
+      if (material.saturated_unit_weight > 0.0)
+        warning("material " + std::to_string(material.number) +
+                ": its saturated unit weight is left out, CalculiX has one density");
       if (material.unit_weight < 0.0)
         warning("material " + std::to_string(material.number) +
                 ": its unit weight is left out, CalculiX has no density below zero");

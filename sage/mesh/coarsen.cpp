@@ -290,7 +290,8 @@ bool Coarsening::moves_as_one(const Report& report, std::size_t c) const {
 // supports move all of them alike.
 void Coarsening::require_report(const Report& report) {
   if (report.nodes.empty()) return;
-  bool alike = report.kind != ReportKind::discharge && moves_as_one(report, 1);
+  const bool line = report.kind == ReportKind::discharge || report.kind == ReportKind::uplift;
+  bool alike = !line && moves_as_one(report, 1);
   if (report.kind != ReportKind::triaxial) alike = alike && moves_as_one(report, 0);
   if (alike) return;
   for (int node : report.nodes) require(node);

@@ -183,10 +183,10 @@ void inherit_report(Report& report, const std::vector<CutEdge>& edges) {
 }
 
 bool follows_a_line(const Report& report) {
-  return report.kind == ReportKind::discharge;
+  return report.kind == ReportKind::discharge || report.kind == ReportKind::uplift;
 }
 
-// A line that discharge is asked for may go anywhere: what was made between two of its nodes is put between them.
+// A line that discharge or uplift is asked for may go anywhere: what was made between two of its nodes is put between them.
 void fill_line(std::vector<int>& line, const EdgeTable& edges, int first_made) {
   std::map<std::pair<int, int>, std::vector<OnEdge>> between;  // known nodes next to each other, both ways
   for (const CutEdge& edge : cut_edges_between(line, edges, first_made))

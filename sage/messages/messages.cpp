@@ -378,7 +378,8 @@ constexpr MessageEntry kMessages[] = {
      "Or it gives two components of an unknown that has one.",
      "Use a name from the message, or give the node an element that solves for this unknown."},
     {"S236", "an initial stress or history card does not fit",
-     "The kind of the card is not for this group (1 geostatic: solids; 3 traction of the neighbours: "
+     "The kind of the card is not for this group (1 geostatic, 8 at rest: solids; 3 traction of the "
+     "neighbours: "
      "interfaces). Or a quantity is given twice or does not exist. Or the law can't start from the given "
      "state.",
      "Choose the kind for the group and give the values in their order: docs/manual/deck_format.md, card "

@@ -63,6 +63,8 @@ std::uint64_t fingerprint(const Model& model) {
   for (Eigen::Index i = 0; i < model.mesh.x.cols(); ++i) add(archive, model.mesh.x(0, i), model.mesh.x(1, i));
   add(archive, model.mesh.number);
   for (const Material& m : model.materials) add(archive, m.number, m.name, m.code, m.parameters, m.unit_weight);
+  for (const Material& m : model.materials)
+    if (m.saturated_unit_weight != 0.0) add(archive, m.number, m.saturated_unit_weight);
   for (const Group& g : model.groups)
     add(archive, g.number, g.name, g.element_code, g.element_name, g.material, g.element_numbers, g.nodes);
   for (const Material& m : model.materials)

@@ -215,6 +215,7 @@ Material twin_of(const Material& from, const UnitSystem& units) {
   twin.parameters = from.parameters;
   twin.variants = from.variants;
   twin.unit_weight = from.unit_weight;
+  twin.saturated_unit_weight = from.saturated_unit_weight;
   twin.where = from.where;
   twin.undrained = from.undrained;
   twin.twin = from.twin;

@@ -41,8 +41,9 @@ struct Material {
   int code = 0;  // catalogue code of the law
   std::string law_name;
   std::shared_ptr<const MaterialEntry> entry;
-  std::vector<double> parameters;  // as the deck writes them
-  double unit_weight = 0.0;        // force / length^3
+  std::vector<double> parameters;      // as the deck writes them
+  double unit_weight = 0.0;            // force / length^3
+  double saturated_unit_weight = 0.0;  // of solids below a phreatic line; 0: the same
   LawPtr law;
   SourcePosition where;
   bool undrained = false;            // the law stands within one of sage/model/undrained.hpp
@@ -167,11 +168,12 @@ enum class InitialKind {
   lock_off,  // bars, in a stage: the force of one bar that stands at its end; from the next stage on the bar is elastic
   material,  // in a stage: number of the material that the group goes on with; its stress stays
   parameter,  // number of a parameter (from 1), level, growth per depth below it, growth per effective vertical stress
+  at_rest,  // weight of the solids above, horizontal by K0: that of normally consolidated soil, OCR, POP, stress at the surface
 };
 // Of the others the stress stays as it is.
 inline bool states_stress(InitialKind kind) {
   return kind == InitialKind::uniform || kind == InitialKind::geostatic || kind == InitialKind::traction ||
-         kind == InitialKind::lock_off;
+         kind == InitialKind::lock_off || kind == InitialKind::at_rest;
 }
 // Cards of the law of a group, not of its stress.
 inline bool is_about_law(InitialKind kind) {
@@ -267,12 +269,13 @@ struct Stage {
   bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }
 };
 
-enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4 };
+enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4, uplift = 5 };
 
 // triaxial: axial force of the listed nodes against the law's own answer for frictionless ends.
 // nodes: displacement and force summed over the listed nodes, a row an increment.
 // point: displacement, strain and stress at a place, a row an increment.
 // discharge: what flows through a line of nodes, from its left to its right, a row an increment.
+// uplift: the weight above a line of nodes against the water below it, a row at the end of each stage.
 struct Report {
   ReportKind kind = ReportKind::triaxial;
   int group = -1;  // triaxial: of the specimen; point: the one that answers where several meet, -1 = the first

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sage/model/saturated_weight.hpp"
 #include "sage/model/water_parts.hpp"
 
 namespace sage {
@@ -14,7 +15,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Overburden::Overburden(const Model& model, const std::vector<char>& groups) {
+Overburden::Overburden(const Model& model, const std::vector<char>& groups, int stage) {
   double high = -std::numeric_limits<double>::infinity();
   low_ = -high;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
@@ -23,6 +24,8 @@ Overburden::Overburden(const Model& model, const std::vector<char>& groups) {
     for (int e = 0; e < group.elements(); ++e) {
       Cell cell;
       cell.unit_weight = model.material_of(group).unit_weight;
+      cell.line = saturating_line(model, stage, g);
+      cell.saturation = saturation_weight(model.material_of(group));
       for (const std::vector<int>& edge : group.element->edges())
         cell.corners.push_back(model.mesh.x.col(group.nodes_of(e)[edge[0]]));
       for (const Vector2& corner : cell.corners) {
@@ -63,7 +66,11 @@ Overburden::Above Overburden::above(const Vector2& place) const {
       top = std::max(top, y);
     }
     if (!(top > place.y())) continue;
-    sum.stress += cell.unit_weight * (top - std::max(bottom, place.y()));
+    bottom = std::max(bottom, place.y());
+    sum.stress += cell.unit_weight * (top - bottom);
+    if (cell.line != nullptr)
+      sum.stress +=
+          cell.saturation * std::clamp(water_level(*cell.line, place.x()) - bottom, 0.0, top - bottom);
     sum.top = std::max(sum.top, top);
   }
   return sum;
@@ -87,7 +94,7 @@ PorePressure::PorePressure(const Model& model, int stage, const std::vector<char
     if (card->kind == WaterKind::nodes) take_nodes(*card, g);
     if (card->kind == WaterKind::heads) take_heads(g, map, unknowns);
     if (card->kind == WaterKind::ratio && overburden_ == nullptr)
-      overburden_ = std::make_shared<const Overburden>(model, groups);
+      overburden_ = std::make_shared<const Overburden>(model, groups, stage);
   }
 }
 

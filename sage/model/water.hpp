@@ -60,7 +60,8 @@ class PorePressure {
 // Weight of the solids of active groups above places: vertical lines through their corners' polygons.
 class Overburden {
  public:
-  Overburden(const Model& model, const std::vector<char>& groups);
+  // As in a stage (0-based), whose phreatic lines say what is saturated.
+  Overburden(const Model& model, const std::vector<char>& groups, int stage);
   struct Above {
     double stress = 0.0;  // unit weights times heights
     double top = 0.0;     // level of the uppermost solid
@@ -70,7 +71,8 @@ class Overburden {
  private:
   struct Cell {
     std::vector<Vector2> corners;
-    double unit_weight = 0.0;
+    double unit_weight = 0.0, saturation = 0.0;
+    const WaterCard* line = nullptr;
   };
   std::vector<Cell> cells_;
   std::vector<std::vector<int>> bins_;  // cells by x

@@ -19,8 +19,9 @@ struct Change {
 };
 
 const std::vector<CodeName> kHold{{0, "free"}, {1, "fixed"}, {-1, "released"}, {2, "exit"}};
-const std::vector<CodeName> kInitial{{0, "uniform"}, {1, "geostatic"}, {2, "zero"},     {3, "traction"},
-                                     {4, "history"}, {5, "lock off"},  {6, "material"}, {7, "parameter"}};
+const std::vector<CodeName> kInitial{{0, "uniform"},  {1, "geostatic"}, {2, "zero"},
+                                     {3, "traction"}, {4, "history"},   {5, "lock off"},
+                                     {6, "material"}, {7, "parameter"}, {8, "at rest"}};
 
 const std::vector<Change>& changes() {
   static const std::vector<Change> list{
@@ -49,7 +50,11 @@ const std::vector<Change>& changes() {
        {{0, "newton"}, {1, "modified newton"}, {2, "initial stiffness"}, {3, "dogleg"}}},
       {"birth", "groups", Want::groups, "birth"},
       {"death", "groups", Want::groups, "death"},
-      {"report", "kind", Want::code, {}, {{1, "triaxial"}, {2, "nodes"}, {3, "point"}, {4, "discharge"}}},
+      {"report",
+       "kind",
+       Want::code,
+       {},
+       {{1, "triaxial"}, {2, "nodes"}, {3, "point"}, {4, "discharge"}, {5, "uplift"}}},
       {"report", "group", Want::group},
       {"report", "nodes", Want::integers},
       {"water",

@@ -123,7 +123,8 @@ InitialInput initial_of(const py::handle& object) {
                                         {"history", InitialKind::history},
                                         {"lock off", InitialKind::lock_off},
                                         {"material", InitialKind::material},
-                                        {"parameter", InitialKind::parameter}}),
+                                        {"parameter", InitialKind::parameter},
+                                        {"at rest", InitialKind::at_rest}}),
           attribute<std::vector<double>>(object, "values")};
 }
 
@@ -170,7 +171,8 @@ ReportInput report_of(const py::handle& object) {
   report.kind = kind_of<ReportKind>(object, {{"triaxial", ReportKind::triaxial},
                                              {"nodes", ReportKind::nodes},
                                              {"point", ReportKind::point},
-                                             {"discharge", ReportKind::discharge}});
+                                             {"discharge", ReportKind::discharge},
+                                             {"uplift", ReportKind::uplift}});
   report.nodes = attribute<std::vector<int>>(object, "nodes");
   report.group = attribute<int>(object, "group");
   report.stage = attribute<int>(object, "stage");
@@ -185,7 +187,8 @@ ReportInput report_of(const py::handle& object) {
 
 MaterialInput material_of(const py::handle& object) {
   return {attribute<std::string>(object, "law"), attribute<std::map<std::string, double>>(object, "parameters"),
-          attribute<double>(object, "unit_weight"), attribute<std::string>(object, "name")};
+          attribute<double>(object, "unit_weight"), attribute<std::string>(object, "name"),
+          attribute<double>(object, "saturated_unit_weight")};
 }
 
 GroupInput group_of(const py::handle& object) {

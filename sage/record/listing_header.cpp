@@ -79,6 +79,8 @@ std::string initial_text(const Model& model, const Group& group, const InitialSt
       return named({"axial force", "hoop force", "shear force", "moment", "hoop moment"}, v);
     case InitialKind::geostatic:
       return named({"geostatic: surface", "unit weight", "K0", "stress at the surface"}, v);
+    case InitialKind::at_rest:
+      return named({"at rest: K0 at OCR 1", "OCR", "POP", "stress at the surface"}, v);
     case InitialKind::zero:
       return "none";
     case InitialKind::traction:
@@ -255,6 +257,9 @@ void materials(std::string& text, const Model& model, const Catalogue& catalogue
     if (material.unit_weight != 0.0)
       fmt::format_to(to(text), "     {:<28}{:>14.8g} {}\n", "unit_weight", material.unit_weight,
                      weight_unit(material, model.units));
+    if (material.saturated_unit_weight != 0.0)
+      fmt::format_to(to(text), "     {:<28}{:>14.8g} {:<12} below phreatic lines\n", "saturated_unit_weight",
+                     material.saturated_unit_weight, weight_unit(material, model.units));
     if (material.unit_weight != 0.0) weight_of_line(text, material, model.units);
   }
 }

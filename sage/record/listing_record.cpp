@@ -83,6 +83,19 @@ void discharge_rows(std::string& text, const Model& model, const std::vector<Dis
   }
 }
 
+void uplift_rows(std::string& text, const Model& model, const std::vector<UpliftRow>& rows) {
+  fmt::format_to(
+      to(text),
+      "   {:>5}{:>6}{:>14}{:>14}{:>14}{:>14}    (weight above the line and water on it {}, {}; uplift = weight "
+      "/ water; heave = buoyant weight / seepage force)\n",
+      "stage", "incr", "weight", "water", "uplift", "heave", model.units.force, forces_per(model));
+  for (const UpliftRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    for (double v : {r.value.weight, r.value.water, r.value.uplift, r.value.heave}) put(text, v, 14, 6);
+    text += '\n';
+  }
+}
+
 void flow_point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
   fmt::format_to(to(text), "   stage  incr{:>14}{:>14}{:>14}{:>14}    (heads {}, velocity {})\n", "head",
                  "pressure head", "velocity-x", "velocity-y", model.units.length,
@@ -151,10 +164,9 @@ double without_rounding(double value, double scale) {
   return std::abs(value) < 1e-12 * scale ? 0.0 : value;
 }
 
-void audit(std::string& text, const Model& model, const EquilibriumAudit& audit) {
+// Models of water alone have no forces.
+void force_sums(std::string& text, const Model& model, const EquilibriumAudit& audit) {
   const AxisNames names = axis_names(model.geometry);
-  fmt::format_to(to(text), "\n   Equilibrium of the whole model ({}, {})\n   {:>12}{:>16}{:>16}{:>16}\n",
-                 model.units.force, forces_per(model), "", "applied", "reactions", "sum");
   const double scale = std::max({std::abs(audit.applied[0]), std::abs(audit.applied[1]),
                                  std::abs(audit.reactions[0]), std::abs(audit.reactions[1])});
   for (int c = 0; c < 2; ++c) {
@@ -168,12 +180,21 @@ void audit(std::string& text, const Model& model, const EquilibriumAudit& audit)
   if (model.geometry == Geometry::plane_strain)
     fmt::format_to(to(text), "   {:>12}{:>48.3E}   (about the origin)\n", "moment",
                    without_rounding(audit.moment, audit.scale));
+}
+
+void audit(std::string& text, const Model& model, const EquilibriumAudit& audit) {
+  const bool has_forces = audit.scale > 0.0 || audit.fields.empty();
+  fmt::format_to(to(text), "\n   Equilibrium of the whole model ({}{})\n   {:>12}{:>16}{:>16}{:>16}\n",
+                 has_forces ? model.units.force + ", " : "", forces_per(model), "", "applied", "reactions",
+                 "sum");
+  if (has_forces) force_sums(text, model, audit);
   for (std::size_t i = 0; i < audit.fields.size(); ++i) {
     const UnknownField& field = model.unknowns[i + 1];
     const FieldAudit& sums = audit.fields[i];
     if (sums.applied == 0.0 && sums.reactions == 0.0) continue;
     fmt::format_to(to(text), "   {:>12}", field.load);
-    for (double v : {sums.applied, sums.reactions, sums.applied + sums.reactions}) put(text, v, 16, 8);
+    for (double v : {sums.applied, sums.reactions, sums.applied + sums.reactions})
+      put(text, without_rounding(v, sums.scale), 16, 8);
     fmt::format_to(to(text), "   ({}{})\n", field.name,
                    field.balanced ? "" : "; elements keep or make some, it needs no sum of zero");
   }
@@ -196,6 +217,10 @@ void report_rows(std::string& text, const Model& model, const Reports& reports) 
       case ReportKind::discharge:
         heading(text, fmt::format("REPORT {}: DISCHARGE", i + 1));
         discharge_rows(text, model, reports.discharges(i));
+        break;
+      case ReportKind::uplift:
+        heading(text, fmt::format("REPORT {}: UPLIFT AND HYDRAULIC HEAVE", i + 1));
+        uplift_rows(text, model, reports.uplifts(i));
         break;
       case ReportKind::point:
         heading(text,

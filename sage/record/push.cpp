@@ -61,7 +61,7 @@ void Pushes::increment(const Model& model, const StepReport& report, const Solut
   if (pushes_.empty() || pushes_.back().stage != report.stage) {
     Vector2 gravity = Vector2::Zero();
     for (int s = 0; s <= report.stage; ++s) gravity += model.stages[s].gravity;
-    const Eigen::VectorXd weight = weight_of(model, solution.activity->group, gravity);
+    const Eigen::VectorXd weight = weight_of(model, solution.activity->group, gravity, report.stage);
     pushes_.push_back({report.stage, report.increments, *force_along(model, report.stage, weight), {}});
   }
   pushes_.back().forces.push_back(*force - pushes_.back().weight);

@@ -39,8 +39,8 @@ struct Weights {
     std::vector<char> both = activity.group;
     activity.enter(model.stages[stage]);
     for (std::size_t g = 0; g < both.size(); ++g) both[g] = both[g] && activity.group[g];
-    start = weight_of(model, both, gravity);
-    end = weight_of(model, activity.group, gravity + model.stages[stage].gravity);
+    start = weight_of(model, both, gravity, std::max(0, stage - 1));
+    end = weight_of(model, activity.group, gravity + model.stages[stage].gravity, stage);
   }
 };
 
@@ -96,6 +96,14 @@ std::string remarks(const Model& model, std::size_t index) {
         "# gradient: largest fall of the head across the line at its nodes; head: mean of its nodes\n"
         "# fx, fy: what the water presses with from the left of the line on what lies to its right\n",
         per);
+  if (report.kind == ReportKind::uplift)
+    return fmt::format(
+        "# uplift on a line of nodes, at the end of each stage; forces {}\n"
+        "# weight: soil and free water above the line; water: pore pressure on it; uplift = weight / water\n"
+        "# heave = (weight - water at rest) / (water - water at rest): buoyant weight over seepage force; "
+        "blank without "
+        "flow upwards\n",
+        per);
   if (kind_at_points(model) == ElementKind::flow)
     return fmt::format(
         "# {}; head, pressure head and velocity of the water; units {}\n# blank while nothing is active "
@@ -150,6 +158,8 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
             {"head", u.length, true},
             {"fx", u.force, true},
             {"fy", u.force, true}};
+  if (report.kind == ReportKind::uplift)
+    return {{"weight", u.force}, {"water", u.force}, {"uplift", "-", true}, {"heave", "-", true}};
   const FieldTable table = fields_of(model);
   std::vector<ReportColumn> columns;
   for (const FieldEntry* field : point_report_fields(model, table, report))
@@ -537,8 +547,8 @@ void Reports::add_discharge(Series& series, const Model& model, const Report& re
 
 std::size_t Reports::rows(std::size_t index) const {
   const Series& series = series_[index];
-  return series.triaxial.size() + series.nodes.size() + series.points.size() +
-         series.discharges.size();  // of one kind only
+  return series.triaxial.size() + series.nodes.size() + series.points.size() + series.discharges.size() +
+         series.uplifts.size();  // of one kind only
 }
 
 std::pair<int, int> Reports::step(std::size_t index, std::size_t row) const {
@@ -546,6 +556,7 @@ std::pair<int, int> Reports::step(std::size_t index, std::size_t row) const {
   if (row < series.triaxial.size()) return {series.triaxial[row].stage, series.triaxial[row].increment};
   if (row < series.nodes.size()) return {series.nodes[row].stage, series.nodes[row].increment};
   if (row < series.discharges.size()) return {series.discharges[row].stage, series.discharges[row].increment};
+  if (row < series.uplifts.size()) return {series.uplifts[row].stage, series.uplifts[row].increment};
   return {series.points.at(row).stage, series.points.at(row).increment};
 }
 
@@ -565,6 +576,10 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
   if (row < series.discharges.size()) {
     const DischargeRow& r = series.discharges[row];
     return {r.discharge, r.gradient, r.head, r.force[0], r.force[1]};
+  }
+  if (row < series.uplifts.size()) {
+    const Uplift& r = series.uplifts[row].value;
+    return {r.weight, r.water, r.uplift, r.heave};
   }
   const PointRow& r = series.points.at(row);
   std::vector<double> values;
@@ -617,6 +632,10 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
       add_point(series, model, step, solution);
     } else if (report.kind == ReportKind::discharge) {
       add_discharge(series, model, report, step, solution);
+    } else if (report.kind == ReportKind::uplift) {
+      if (step.load_factor < 1.0) continue;
+      series.uplifts.push_back({step.stage + 1, step.increment,
+                                uplift_on(model, step.stage, report.nodes, *solution.activity, *solution.u)});
     } else {
       const NodeSums sums = sum_nodes(model, report, solution, series.weight, step.load_factor);
       if (report.kind == ReportKind::triaxial)
@@ -692,6 +711,7 @@ void Reports::exchange(Archive& archive) {
     archive(series.nodes);
     archive(series.points);
     archive(series.discharges);
+    archive(series.uplifts);
     archive(series.filled);
     archive(series.group);
     archive(series.start);

@@ -9,6 +9,7 @@
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 #include "sage/record/sampler.hpp"
+#include "sage/record/uplift.hpp"
 
 namespace sage {
 
@@ -65,6 +66,12 @@ struct DischargeRow {
   int stage = 0, increment = 0;
   double discharge = 0.0, gradient = 0.0, head = 0.0;
   double force[2] = {0, 0};
+};
+
+// A stage of an uplift report (uplift.hpp).
+struct UpliftRow {
+  int stage = 0, increment = 0;  // its last
+  Uplift value;
 };
 
 // The usual fields of a point report, whose values are those numbers; then come those of Report::fields.
@@ -128,6 +135,7 @@ class Reports final : public Output {
   const std::vector<NodesRow>& nodes(std::size_t index) const { return series_[index].nodes; }
   const std::vector<PointRow>& points(std::size_t index) const { return series_[index].points; }
   const std::vector<DischargeRow>& discharges(std::size_t index) const { return series_[index].discharges; }
+  const std::vector<UpliftRow>& uplifts(std::size_t index) const { return series_[index].uplifts; }
   std::size_t count() const { return series_.size(); }
   const std::vector<ReportColumn>& columns(std::size_t index) const { return columns_[index]; }
 
@@ -169,6 +177,7 @@ class Reports final : public Output {
     std::vector<NodesRow> nodes;
     std::vector<PointRow> points;
     std::vector<DischargeRow> discharges;
+    std::vector<UpliftRow> uplifts;
     FlowLine line;              // of a discharge, in the present stage
     std::vector<double> more;   // numbers of Report::fields, a row behind the other
     Probe probe;                // of a point, in the present stage

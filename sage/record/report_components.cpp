@@ -115,6 +115,12 @@ void add_discharge(const Model& model, std::size_t i, const Reports& reports,
     all.push_back({name_of(i, columns[k]), last[k], largest[k], k == 0});
 }
 
+void add_uplift(std::size_t i, const Reports& reports, std::vector<ReportComponent>& all) {
+  const std::vector<double> last = reports.values(i, reports.rows(i) - 1);
+  for (std::size_t k = 0; k < last.size(); ++k)
+    all.push_back({name_of(i, reports.columns(i)[k].name), last[k], std::abs(last[k]), k == 2});
+}
+
 // Empty where water flows through the line at the end.
 std::string why_no_discharge(const Model& model, const Report& report) {
   Activity activity(model);
@@ -164,6 +170,7 @@ std::vector<ReportComponent> last_components(const Model& model, const Reports& 
     if (report.kind == ReportKind::nodes && !reports.nodes(i).empty())
       add_nodes(model, report, i, reports.nodes(i), all);
     if (report.kind == ReportKind::point && reports.rows(i) > 0) add_point(model, i, reports, all);
+    if (report.kind == ReportKind::uplift && reports.rows(i) > 0) add_uplift(i, reports, all);
     if (report.kind == ReportKind::discharge && reports.rows(i) > 0) add_discharge(model, i, reports, all);
   }
   return all;

@@ -189,6 +189,17 @@ void discharge_table(std::string& text, const Model& model, std::size_t index,
                    cell(r.head, "{:.5g}", 14, digits));
 }
 
+void uplift_table(std::string& text, const Model& model, std::size_t index, const std::vector<UpliftRow>& rows,
+                  int digits) {
+  fmt::format_to(to(text), "  uplift {:<8}{:>{}}{:>{}}{:>{}}{:>{}}\n", index + 1,
+                 "weight [" + model.units.force + "]", wide(18, digits), "water", wide(14, digits), "uplift",
+                 wide(12, digits), "heave", wide(12, digits));
+  for (const UpliftRow& r : chosen(rows))
+    fmt::format_to(to(text), "    stage {:<5}{}{}{}{}\n", r.stage, cell(r.value.weight, "{:.5g}", 18, digits),
+                   cell(r.value.water, "{:.5g}", 14, digits), cell(r.value.uplift, "{:.4g}", 12, digits),
+                   cell(r.value.heave, "{:.4g}", 12, digits));
+}
+
 void report_tables(std::string& text, const Model& model, const Reports& reports, int digits) {
   std::size_t shown = 0, points = 0;
   for (std::size_t i = 0; i < reports.count(); ++i) {
@@ -199,6 +210,8 @@ void report_tables(std::string& text, const Model& model, const Reports& reports
     if (!reports.nodes(i).empty() && shown++ < kReports) node_table(text, model, i, reports.nodes(i), digits);
     if (!reports.discharges(i).empty() && shown++ < kReports)
       discharge_table(text, model, i, reports.discharges(i), digits);
+    if (!reports.uplifts(i).empty() && shown++ < kReports)
+      uplift_table(text, model, i, reports.uplifts(i), digits);
     if (!reports.points(i).empty() && points++ < kPoints)
       point_table(text, model, i, reports.points(i), digits);
   }

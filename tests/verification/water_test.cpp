@@ -8,11 +8,15 @@
 #include <iterator>
 #include <numbers>
 
+#include "sage/analysis/external_loads.hpp"
+#include "sage/analysis/initial_balance.hpp"
 #include "sage/analysis/observer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/exchange/convert.hpp"
+#include "sage/model_file/model_file.hpp"
 #include "sage/record/end_forces.hpp"
 #include "sage/record/field_reader.hpp"
+#include "sage/record/report.hpp"
 #include "sage/safety/safety.hpp"
 #include "tests/studies/workbench.hpp"
 #include "tests/support/run_text.hpp"
@@ -107,13 +111,16 @@ class Fields final : public Observer {
   Eigen::VectorXd u;
 };
 
-Fields look(const DeckWriter& deck) {
+Fields look(const Model& model) {
   Fields seen;
-  const Model model = bench().build(deck.text());
   Observer* const observers[] = {&seen};
   const RunResult result = bench().run(model, observers);
   EXPECT_EQ(result.status, RunStatus::completed) << result.reason;
   return seen;
+}
+
+Fields look(const DeckWriter& deck) {
+  return look(bench().build(deck.text()));
 }
 
 // Total weight, pore pressure and water on the slope do what the buoyant weight does without them.
@@ -176,6 +183,215 @@ TEST(Water, GeostaticStartUnderALine) {
     EXPECT_NEAR(row.effective[1], vertical, 1e-8);
     EXPECT_NEAR(row.effective[0], 0.6 * vertical, 1e-8);
   }
+}
+
+// Ground of two layers between x = 1 and 3, its top at y = 8 or sloping down to 7; initial: cards of both.
+std::string two_layers(const std::string& geometry, double right, const std::string& initial) {
+  return R"(
+geometry = ")" +
+         geometry + R"("
+[units]
+length = "m"
+force = "kN"
+stress = "kPa"
+water_unit_weight = 9.81
+[mesh]
+element = "quad8"
+size = 0.5
+[[area]]
+name = "fill"
+outline = [[1, 5], [3, 5], [3, )" +
+         std::to_string(right) + R"(], [1, 8]]
+material = "fill"
+[[area]]
+name = "clay"
+outline = [[1, 0], [3, 0], [3, 5], [1, 5]]
+material = "clay"
+[[material]]
+name = "fill"
+law = "mohr_coulomb"
+unit_weight = 18
+saturated_unit_weight = 20
+youngs_modulus = 1e4
+poissons_ratio = 0.3
+cohesion = 20
+friction_angle = 30
+dilation_angle = 0
+[[material]]
+name = "clay"
+law = "linear_elastic"
+unit_weight = 21
+youngs_modulus = 5e3
+poissons_ratio = 0.3
+[[line]]
+name = "base"
+points = [[1, 0], [3, 0]]
+[[line]]
+name = "left"
+points = [[1, 0], [1, 8]]
+[[line]]
+name = "right"
+points = [[3, 0], [3, )" +
+         std::to_string(right) + R"(]]
+[[line]]
+name = "top"
+points = [[1, 8], [3, )" +
+         std::to_string(right) + R"(]]
+[[fixity]]
+line = "base"
+y = "fixed"
+[[fixity]]
+line = "left"
+x = "fixed"
+[[fixity]]
+line = "right"
+x = "fixed"
+[[water]]
+kind = "line"
+stage = 1
+values = [[0, 6], [4, 6]]
+[[stage]]
+gravity_y = -1
+pressure = [{line = "top", normal1 = 12, normal2 = 12}]
+)" + initial;
+}
+
+// K0 = K0nc OCR^(1 - K0nc), OCR of the effective vertical stress or by POP; K0nc = 1 - sin(30) where the card has none.  Level
+// ground is in equilibrium: nothing moves.
+TEST(Water, EarthPressureAtRestHasTheWeightAbove) {
+  const std::string cards = R"(
+[[initial]]
+group = "fill"
+kind = "at rest"
+values = [0, 0, 40, 12]
+[[initial]]
+group = "clay"
+kind = "at rest"
+values = [0.6, 2.5, 0, 12]
+)";
+  for (const std::string geometry : {"plane strain", "axisymmetric"}) {
+    const Fields seen = look(build_model(
+        read_model_file_text(two_layers(geometry, 8.0, cards), "two.sage.toml"), bench().catalogue()));
+    ASSERT_FALSE(seen.rows.empty());
+    EXPECT_LT(seen.u.cwiseAbs().maxCoeff(), 1e-12) << "m; the weight alone would move it by 0.1";
+    for (const Fields::Row& row : seen.rows) {
+      const double y = row.place.y(), u = kWater * std::max(0.0, 6.0 - y);
+      const bool fill = y > 5.0;
+      const double vertical =
+          12.0 + (fill ? 18.0 * (8.0 - y) + 2.0 * std::max(0.0, 6.0 - y) : 56.0 + 21.0 * (5.0 - y)) - u;
+      const double K0 = fill ? 0.5 * std::pow((vertical + 40.0) / vertical, 0.5) : 0.6 * std::pow(2.5, 0.4);
+      EXPECT_NEAR(row.effective[1], vertical, 1e-10);
+      EXPECT_NEAR(row.effective[0], K0 * vertical, 1e-10);
+      EXPECT_NEAR(row.effective[2], K0 * vertical, 1e-10);
+      EXPECT_NEAR(row.effective[3], 0.0, 1e-10);
+    }
+  }
+}
+
+// Under a sloping top these stresses are in no equilibrium, and the program warns of that before the run; level ground
+// has none of it.
+TEST(Water, EarthPressureAtRestUnderASlopeIsOutOfBalance) {
+  const std::string cards = R"(
+[[initial]]
+group = "fill"
+kind = "at rest"
+values = [0.5, 1, 0, 12]
+[[initial]]
+group = "clay"
+kind = "at rest"
+values = [0.5, 1, 0, 12]
+)";
+  const auto imbalance = [&](double right) {
+    const Model model = build_model(
+        read_model_file_text(two_layers("plane strain", right, cards), "two.sage.toml"), bench().catalogue());
+    return explain_imbalance(model, 0, initial_imbalance(model));
+  };
+  EXPECT_EQ(imbalance(8.0), "");
+  EXPECT_NE(imbalance(7.0), "");
+}
+
+// The line of water at any height: the force on the base is the weight of both layers with what is saturated, and no node is
+// out of balance, since the stress at rest counts the same weight.  Triangles and quadrilaterals.
+TEST(Water, SaturatedWeightIsThatBelowTheLine) {
+  const std::string cards = R"(
+[[initial]]
+group = "fill"
+kind = "at rest"
+values = [0.5, 1, 0, 12]
+[[initial]]
+group = "clay"
+kind = "at rest"
+values = [0.5, 1, 0, 12]
+)";
+  for (const std::string element : {"quad8", "quad4"})
+    for (const double level : {5.1, 6.37, 7.99}) {
+      std::string text = two_layers("plane strain", 8.0, cards);
+      text.replace(text.find("quad8"), 5, element);
+      const std::string line = "[[0, 6], [4, 6]]";
+      const std::string at = std::to_string(level);
+      text.replace(text.find(line), line.size(), "[[0, " + at + "], [4, " + at + "]]");
+      const Model model = build_model(read_model_file_text(text, "two.sage.toml"), bench().catalogue());
+      const Eigen::VectorXd force = weight_of(model, {1, 1}, {0.0, -1.0}, 0);
+      double sum = 0.0;
+      for (int node = 0; node < model.mesh.nodes(); ++node) sum += force[DofMap::displacement(node, 1)];
+      EXPECT_NEAR(-sum, 2.0 * (3.0 * 18.0 + (level - 5.0) * 2.0 + 5.0 * 21.0), 1e-10)
+          << element << " " << level;
+    }
+}
+
+// A line that falls from y = 7 to 5.5 within the fill of 2 m: the part below it is a trapezium.
+TEST(Water, SaturatedWeightUnderASlopingLine) {
+  std::string text = two_layers("axisymmetric", 8.0, "");
+  const std::string line = "[[0, 6], [4, 6]]";
+  text.replace(text.find(line), line.size(), "[[0, 7], [1.4, 7], [2.3, 5.5], [4, 5.5]]");
+  const Model model = build_model(read_model_file_text(text, "two.sage.toml"), bench().catalogue());
+  const Eigen::VectorXd force = weight_of(model, {1, 1}, {0.0, -1.0}, 0);
+  double sum = 0.0;
+  for (int node = 0; node < model.mesh.nodes(); ++node) sum += force[DofMap::displacement(node, 1)];
+  // 2 pi r (level - 5) dr: level 7 to r = 1.4, then 7 - 5/3 (r - 1.4) to 2.3, then 5.5.
+  const auto moment = [](double a, double b, double c, double m) {
+    return c * (b * b - a * a) / 2.0 + m * (b * b * b - a * a * a) / 3.0;
+  };
+  const double wet = moment(1.0, 1.4, 2.0, 0.0) + moment(1.4, 2.3, 2.0 + 5.0 / 3.0 * 1.4, -5.0 / 3.0) +
+                     moment(2.3, 3.0, 0.5, 0.0);
+  const double dry = (9.0 - 1.0) / 2.0 * (3.0 * 18.0 + 5.0 * 21.0);
+  EXPECT_NEAR(-sum, 2.0 * std::numbers::pi * (dry + 2.0 * wet), 1e-9);
+}
+
+// A dry fill of 54 kPa on an aquifer whose level is `artesian`, 4 m above the fill's base: W = 2 x 54, U = 2 gamma_w 4 and
+// U0 = 2 gamma_w 3; rings have the same factors on 8 pi.  Refining the mesh changes nothing.
+TEST(Water, UpliftAndHeaveUnderAFill) {
+  for (const std::string geometry : {"plane strain", "axisymmetric"})
+    for (const int refine : {0, 1}) {
+      std::string text = two_layers(geometry, 8.0, R"(
+[[line]]
+name = "roof"
+points = [[1, 5], [3, 5]]
+[[water]]
+kind = "dry"
+group = "fill"
+stage = 1
+[[report]]
+kind = "uplift"
+line = "roof"
+)");
+      const std::string line = "[[0, 6], [4, 6]]";
+      text.replace(text.find(line), line.size(), "[[0, 9], [4, 9]]\naction = \"none\"");
+      BuildOptions options;
+      options.refine = refine;
+      const Model model =
+          build_model(read_model_file_text(text, "artesian.sage.toml"), bench().catalogue(), options);
+      Reports reports;
+      Observer* const observers[] = {&reports};
+      ASSERT_EQ(bench().run(model, observers).status, RunStatus::completed);
+      ASSERT_EQ(reports.uplifts(0).size(), 1U);
+      const Uplift& found = reports.uplifts(0)[0].value;
+      const double area = geometry == "plane strain" ? 2.0 : 8.0 * std::numbers::pi;
+      EXPECT_NEAR(found.weight, area * 54.0, 1e-10 * area);
+      EXPECT_NEAR(found.water, area * 4.0 * kWater, 1e-10 * area);
+      EXPECT_NEAR(found.uplift, 54.0 / (4.0 * kWater), 1e-12);
+      EXPECT_NEAR(found.heave, (54.0 - 3.0 * kWater) / kWater, 1e-11);
+    }
 }
 
 // Drawdown of a column: the surface settles by the integral of gamma_w (6 - y) above the new level and 4 gamma_w

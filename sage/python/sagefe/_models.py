@@ -22,11 +22,16 @@ def _whole(values: ArrayLike) -> List[int]:
 
 
 class Material:
-    """A material: the name of a law (``sagefe.laws()``) and its parameters by name, as decks give them."""
+    """A material: the name of a law (``sagefe.laws()``) and its parameters by name, as decks give them.
 
-    def __init__(self, law: str, *, unit_weight: float = 0.0, name: str = "", **parameters: float) -> None:
+    saturated_unit_weight: of solids below a phreatic line; 0: the unit weight everywhere.
+    """
+
+    def __init__(self, law: str, *, unit_weight: float = 0.0, saturated_unit_weight: float = 0.0, name: str = "",
+                 **parameters: float) -> None:
         self.law = law
         self.unit_weight = float(unit_weight)
+        self.saturated_unit_weight = float(saturated_unit_weight)
         self.name = name
         self.parameters = {key: float(value) for key, value in parameters.items()}
 
@@ -81,7 +86,7 @@ class Pressure:
 class Initial:
     """Initial stress of a group, as on the card.
 
-    kind: "uniform", "geostatic", "zero", "traction", "history", "lock off", "material" or "parameter".
+    kind: "uniform", "geostatic", "zero", "traction", "history", "lock off", "material", "parameter" or "at rest".
     """
 
     def __init__(self, group: int, kind: str = "uniform", values: Sequence[float] = ()) -> None:
@@ -111,7 +116,7 @@ class Stage:
 
 @dataclass
 class ReportOf:
-    """A report: kind "triaxial", "nodes", "point" or "discharge"."""
+    """A report: kind "triaxial", "nodes", "point", "discharge" or "uplift"."""
 
     kind: str
     nodes: Sequence[int] = ()

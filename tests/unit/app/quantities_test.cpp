@@ -187,6 +187,9 @@ const std::vector<Row>& rows() {
          m = plain(1, 1, {2, {1000.0, 400.0}});
        }},
       {"unit weight", {"", kMaterials, ""}, [](Model& m) { m.materials[0].unit_weight = 18.0; }},
+      {"saturated unit weight",
+       {"", kMaterials, "its saturated unit weight is left out"},
+       [](Model& m) { m.materials[0].saturated_unit_weight = 20.0; }},
       {"uplift",
        {"", kMaterials, "its unit weight is left out"},
        [](Model& m) { m.materials[0].unit_weight = -8.0; }},
@@ -230,6 +233,11 @@ const std::vector<Row>& rows() {
        {"", "initial stress", "initial stresses"},
        [](Model& m) {
          m.initials.push_back(start(InitialKind::geostatic, {2.0, 18.0, 0.5}));
+       }},
+      {"earth pressure at rest",
+       {"", "initial stress", "initial stresses"},
+       [](Model& m) {
+         m.initials.push_back(start(InitialKind::at_rest, {0.5, 2.0, 10.0, 5.0}));
        }},
       {"no start stress",
        {"", "initial stress", "initial stresses"},
@@ -341,6 +349,12 @@ const std::vector<Row>& rows() {
          m.reports[0].name = "crest";
          m.reports[0].nodes.clear();
        }},
+      {"report of uplift",
+       {"", kReports, kReports},
+       [](Model& m) {
+         m.units.water_unit_weight = 9.81;
+         m.reports.push_back(report(ReportKind::uplift));
+       }},
       {"fields of a point",
        {"further fields", kReports, kReports},
        [](Model& m) {
@@ -448,8 +462,8 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [x, number, deck_nodes, made_between, reach] = one;
 }
 [[maybe_unused]] void known(const Material& one) {
-  [[maybe_unused]] const auto& [number, name, code, law_name, entry, parameters, unit_weight, law, where,
-                                undrained, twin, variants] = one;
+  [[maybe_unused]] const auto& [number, name, code, law_name, entry, parameters, unit_weight,
+                                saturated_unit_weight, law, where, undrained, twin, variants] = one;
 }
 [[maybe_unused]] void known(const Group& one) {
   [[maybe_unused]] const auto& [number, name, element_code, formulation, element_name, entry, element, material,
