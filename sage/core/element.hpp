@@ -93,7 +93,7 @@ struct ElementOut {
   double* load = nullptr;         // dofs, of ElementIn::edges: what the motion adds to these loads, overwritten
 };
 
-// Optional interface: FourElements (four_at_a_time.hpp).
+// Elements hold no state: several threads may call them at once.  Optional interface: FourElements (four_at_a_time.hpp).
 class Element {
  public:
   virtual ~Element() = default;
