@@ -10,6 +10,7 @@
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/external_loads.hpp"
 #include "sage/analysis/fold.hpp"
+#include "sage/analysis/load_control.hpp"
 #include "sage/analysis/pore_warnings.hpp"
 #include "sage/analysis/run_checkpoint.hpp"
 #include "sage/analysis/stage_start.hpp"
@@ -127,6 +128,7 @@ bool Analysis::Stages::guard(Work work) {
 bool Analysis::Stages::open() {
   if (was_opened_ || is_closed_) throw std::logic_error("Analysis::open: it has been opened before");
   was_opened_ = true;
+  if (settings_.trials != nullptr) refuse_controlled_trials(model_);
   return guard([&] {
     if (settings_.resume_from.empty()) {
       start_.start_first_states();
@@ -179,7 +181,7 @@ bool Analysis::Stages::take_increment() {
   report.stage = done_.stage;
   report.increment = done_.increment + 1;
   report.increments = stage.increments;
-  report.load_factor = report.started_at = state_.reached;
+  report.load_factor = report.started_at = run_.load_share();
   report.early = state_.early;
   if (!control_.take_increment(report)) {
     fail(report);
@@ -248,7 +250,11 @@ void Analysis::Stages::end_stage() {
 void Analysis::Stages::fail(StepReport& report) {
   const NewtonStep& step = control_.failed();
   const Assembly& assembly = system_.assembly();
-  if (step.outcome == StepOutcome::singular) {
+  if (run_.stage().is_controlled()) {
+    result_.status = RunStatus::not_converged;
+    result_.code = Code("S584");
+    result_.reason = explain_controlled(run_, report, step);
+  } else if (step.outcome == StepOutcome::singular) {
     result_.status = RunStatus::singular;
     result_.code = Code("S502");
     result_.reason = explain_singular(model_, system_.activity(), assembly, report, step);
@@ -338,6 +344,8 @@ Solution Analysis::Stages::state() {
 void Analysis::Stages::take_loads() {
   const double t = state_.reached;
   if (!has_begun_ || !is_open_) return;
+  if (run_.stage().is_controlled())
+    throw std::logic_error("Analysis::take_loads: the load of the stage is controlled by a displacement");
   control_.drop_step();
   shown_u_.resize(0);
   StagePath& path = state_.path;

@@ -13,7 +13,7 @@ double CurrentStiffness::load_work() const {
 }
 
 void CurrentStiffness::measure(double size) {
-  if (run_.tangent().linear()) return;
+  if (run_.tangent().linear() || run_.stage().is_controlled()) return;
   StagePath& path = run_.state.path;
   const Eigen::VectorXd& rate = run_.system.rate();
   double work = 0.0;
@@ -30,7 +30,7 @@ void CurrentStiffness::measure(double size) {
 }
 
 double CurrentStiffness::share(double size, const NewtonStep& step) const {
-  if (run_.tangent().linear()) return -1.0;
+  if (run_.tangent().linear() || run_.stage().is_controlled()) return -1.0;
   const StagePath& path = run_.state.path;
   if (!run_.system.rate().isZero(0.0))
     return path.stiffest > 0.0 && path.last_size > 0.0 ? path.last_stiffness / path.stiffest : -1.0;

@@ -13,6 +13,8 @@ enum class NewtonStart {
   nearby,     // du is near the answer, except for what supports prescribe
 };
 
+class ControlledLoad;
+
 struct NewtonSettings {
   Method method = Method::newton;
   int max_iterations = 25;
@@ -30,6 +32,7 @@ struct NewtonSettings {
   // leaves to the next one; 0 = no damping.
   double damping_fall = 0.0;
   const std::vector<char>* of_solids = nullptr;  // by dof: a solid has it; damped alone
+  ControlledLoad* control = nullptr;  // the load is an unknown (load_control.hpp); null = it is given
   // Of the model: its unknowns, and its size, the longest arm that a force has; null: moments have no measure in forces.
   const std::vector<UnknownField>* unknowns = nullptr;
   double size = 0.0;

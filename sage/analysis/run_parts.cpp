@@ -16,7 +16,7 @@ Solution RunParts::solution() const {
     internal = &state.moved_internal;
     external = &state.moved_external;
   }
-  return {&state.u, internal, external, &assembly(), &system.activity(), {}, state.place.stage, state.reached};
+  return {&state.u, internal, external, &assembly(), &system.activity(), {}, state.place.stage, load_share()};
 }
 
 void RunParts::warn(const std::vector<Diagnostic>& list) const {

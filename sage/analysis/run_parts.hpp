@@ -28,6 +28,8 @@ struct RunParts {
   // The stage in hand.
   const Stage& stage() const { return model.stages[state.place.stage]; }
 
+  // Share of the stage's loads at the committed state.
+  double load_share() const { return stage().is_controlled() ? state.path.load_share : state.reached; }
   // The committed state.
   Solution solution() const;
   void warn(const std::vector<Diagnostic>& list) const;

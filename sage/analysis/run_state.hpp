@@ -50,7 +50,9 @@ struct StagePath {
   double last_size = 0.0;                       // of the last step, as a share of the stage; 0 = there is none
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
-  bool own_tangent = false;  // modified Newton, initial stiffness: steps begin with K of their start
+  double load_share = 0.0;     // of the stage's loads, at the committed state; where it is controlled
+  double control_start = 0.0;  // the displacement that controls it, at the start of the stage
+  bool own_tangent = false;    // modified Newton, initial stiffness: steps begin with K of their start
   int relaxed = 0;         // steps found by dynamic relaxation: if any, others are relaxed before they are cut
   std::string loose_part;  // the first; empty = none
   std::vector<std::vector<double>> pore_start, pore_end;  // pore pressure at points, by group; empty = no water
@@ -58,7 +60,7 @@ struct StagePath {
   // No step of the stage has been taken yet; loads and pore pressures stay.
   void begin() {
     forget_steps();
-    path_error = 0.0;
+    path_error = load_share = 0.0;
     own_tangent = false;
     relaxed = 0;
     loose_part.clear();
@@ -79,10 +81,12 @@ struct RunState {
   // Internal forces and loads as outputs see them, where loads follow the motion.
   Eigen::VectorXd moved_internal, moved_external;
   StagePath path;
-  RunPlace place;        // the increment in hand
-  double reached = 0.0;  // load factor of the stage in hand at the committed state
-  double easing = 1.0;   // of laws of water, while a free surface is searched for
-  double early = 0.0;    // time by which stages before ended early
+  RunPlace place;  // the increment in hand
+  // Load factor of the stage in hand at the committed state; of a stage whose load is controlled, the share of the
+  // displacement that controls it.
+  double reached = 0.0;
+  double easing = 1.0;  // of laws of water, while a free surface is searched for
+  double early = 0.0;   // time by which stages before ended early
 
   // To a checkpoint or back: after an increment (within a stage), or between two stages.
   void exchange_totals(Archive& archive) {
@@ -98,6 +102,8 @@ struct RunState {
     archive(path.stiffest);
     archive(path.last_stiffness);
     archive(path.path_error);
+    archive(path.load_share);
+    archive(path.control_start);
     archive(path.own_tangent);
     archive(path.relaxed);
     archive(path.loose_part);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "sage/analysis/explain.hpp"
+#include "sage/analysis/load_control.hpp"
 #include "sage/analysis/trials.hpp"
 
 namespace sage {
@@ -33,6 +34,7 @@ void StepControl::open_stage() {
   damped_.open_stage();
   refused_at_ = -1.0;
   on_last_way_ = false;
+  if (run_.stage().is_controlled()) run_.state.path.control_start = controlled_displacement(run_);
   if (!run_.tangent().constant()) stiffness_.set_committed(run_.state.path.force_start);
 }
 
@@ -180,13 +182,13 @@ void StepControl::accept(StepReport& report, const NewtonStep& step, double to) 
   // The tangent at the end of a step serves the next one.  It must be evaluated with the step still in hand: at du = 0 a law on
   // its yield surface answers elastically.
   if (modified && !run_.tangent().constant()) run_.assembly().evaluate(run_.state.du, &run_.tangent());
-  path.policy->accept(run_, step, size, report.cuts > 0);
+  if (!run_.stage().is_controlled()) path.policy->accept(run_, step, size, report.cuts > 0);
   on_last_way_ = false;
   if (path.own_tangent) run_.tangent().set_aside();
   if (!step.crept) stiffness_.measure(size);
   move_to(to);
   keep_step(size);
-  report.load_factor = to;
+  report.load_factor = run_.load_share();
   ++report.substeps;
 }
 
@@ -207,10 +209,12 @@ void StepControl::move_to(double load_factor) {
   if (sees_unknowns(assembly)) state.u_before = state.u;
   state.u += state.du;
   state.reached = load_factor;
-  state.external = (1.0 - load_factor) * state.path.external_start + load_factor * state.path.force_end;
+  if (run_.stage().is_controlled()) state.path.load_share = stepper_.load_share();
+  const double share = run_.load_share();
+  state.external = (1.0 - share) * state.path.external_start + share * state.path.force_end;
   run_.add_histories(load_factor, state.external);
   run_.collect_at_exits();
-  if (!state.path.pore_end.empty()) run_.set_water(load_factor);
+  if (!state.path.pore_end.empty()) run_.set_water(share);
   if (!assembly.is_behind()) run_.result.motion = std::max(run_.result.motion, run_.extent.motion(state.u));
 }
 
@@ -264,7 +268,8 @@ void StepControl::start_on_last_way(double size) {
 bool StepControl::can_relax(const NewtonStep& step, bool last) const {
   constexpr double kNear = 1e-2;  // relative residual around which corrections that cycle stay
   const Assembly& assembly = run_.assembly();
-  if (run_.tangent().linear() || !Relaxation::suits(run_.model) || assembly.dof_map().displacements() == 0)
+  if (run_.stage().is_controlled() || run_.tangent().linear() || !Relaxation::suits(run_.model) ||
+      assembly.dof_map().displacements() == 0)
     return false;
   if (run_.settings.trials != nullptr) return damped_.proves() && !damped_.has_walls();
   const bool fails_here = refused_at_ == run_.state.reached && !last;

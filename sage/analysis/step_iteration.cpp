@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sage/analysis/load_control.hpp"
+
 namespace sage {
 
 StepIteration::StepIteration(Assembly& assembly_of_step, Tangent& tangent_of_step,
@@ -50,6 +52,7 @@ void StepIteration::solve() {
   tangent.factorise(work);
   correction.resize(assembly.equations());
   tangent.solve(residual, correction, work);
+  if (settings.control != nullptr) settings.control->correct(*this);
   if (settings.damping_fall > 0.0) tangent.forget();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sage/analysis/dogleg.hpp"
+#include "sage/analysis/load_control.hpp"
 
 namespace sage {
 
@@ -41,7 +42,7 @@ NewtonStep Stepper::attempt(double from, double to, Begin begin) {
   newton.stop_at_flow = run_.settings.trials != nullptr;
   if (run_.stage().has_histories()) run_.state.path.policy->forget(SteppingPolicy::Past::last_step);
   if (begin == Begin::here) newton.start = NewtonStart::nearby;
-  run_.state.path.policy->prepare(run_, to - from, newton);
+  if (!run_.stage().is_controlled()) run_.state.path.policy->prepare(run_, to - from, newton);
   return solve(from, to, newton);
 }
 
@@ -64,6 +65,7 @@ NewtonStep Stepper::attempt_near(double at) {
 
 NewtonStep Stepper::solve(double from, double to, const NewtonSettings& settings) {
   RunState& state = run_.state;
+  if (run_.stage().is_controlled()) return solve_controlled(from, to, settings);
   state.target = run_.loads_at(to);
   if (to > from && run_.stage().has_histories()) run_.system.take_histories(run_.stage(), from, to);
   run_.set_step_time(to, to - from);
@@ -72,6 +74,22 @@ NewtonStep Stepper::solve(double from, double to, const NewtonSettings& settings
   const Profile::Scope scope(run_.profile(), phase::kIteration);
   return newton_step(run_.assembly(), run_.tangent(), state.target, run_.system.rate(), to - from, newton,
                      run_.result.work, state.du);
+}
+
+// A shorter correction would neither have the displacement that is given nor the load that goes with it.
+NewtonStep Stepper::solve_controlled(double from, double to, const NewtonSettings& settings) {
+  RunState& state = run_.state;
+  state.target = run_.loads_at(state.path.load_share);
+  ControlledLoad control(run_, to, state.target);
+  NewtonSettings newton = settings;
+  newton.control = &control;
+  newton.line_search = false;
+  run_.set_step_time(to, to - from);
+  const Profile::Scope scope(run_.profile(), phase::kIteration);
+  NewtonStep step = newton_step(run_.assembly(), run_.tangent(), state.target, run_.system.rate(), to - from,
+                                newton, run_.result.work, state.du);
+  load_share_ = state.path.load_share + control.change();
+  return step;
 }
 
 }  // namespace sage

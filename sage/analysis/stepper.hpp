@@ -30,15 +30,20 @@ class Stepper {
   // A few corrections of Newton's method from a committed state near equilibrium at that load factor.
   NewtonStep attempt_near(double at);
 
+  // Load share at the end of the last attempt, of a stage whose load is controlled.
+  double load_share() const { return load_share_; }
+
   Newton newton() const { return newton_; }
   void set_newton(Newton newton) { newton_ = newton; }
 
  private:
   NewtonSettings settings() const;
   NewtonStep solve(double from, double to, const NewtonSettings& settings);
+  NewtonStep solve_controlled(double from, double to, const NewtonSettings& settings);
 
   const RunParts& run_;
   bool flow_alone_;
+  double load_share_ = 0.0;
   Newton newton_ = Newton::by_stage;
 };
 

@@ -90,9 +90,14 @@ void System::open_stage(int s) {
   if (stage.pores != PoreWater::flows)
     for (const auto& [dof, supported] : activity_.pores) rate_[dof] = 0.0;
   const bool eliminated_before = !assembly_->eliminated().dofs().empty();
-  assembly_->enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
+  // Dofs are eliminated for loads that grow with the displacements that supports prescribe, by shares that are known.
+  const auto make_solver = [&](int equations, bool symmetric) {
     return make(*choose_solver(equations, symmetric), true);
-  });
+  };
+  if (stage.is_controlled())
+    assembly_->enter_stage(activity_, rate_);
+  else
+    assembly_->enter_stage(activity_, rate_, stage.increments, make_solver);
   tangent_.set_rate(rate_);
   exits_.enter(model_, activity_, s);
   const bool same_pattern = !eliminated_before && assembly_->eliminated().dofs().empty() &&

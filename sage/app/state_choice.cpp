@@ -102,6 +102,11 @@ std::pair<Stage*, int> place_of(Model& model, const StateChoice& choice, std::ve
   if (choice.strain)
     return {&model.stages.back(),
             nearest(strains_of_last_stage(model), *choice.strain, choice, "axial strain", notes)};
+  if (choice.load && model.stages.back().is_controlled())
+    throw std::invalid_argument(
+        choice.words +
+        ": a displacement controls the load of the last stage, so that its load factors are not "
+        "known before the run; name the state by STAGE:INCREMENT");
   if (choice.load)
     return {&model.stages.back(),
             nearest(load_factors(model.stages.back()), *choice.load, choice, "load factor", notes)};

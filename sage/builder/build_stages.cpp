@@ -696,6 +696,7 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
       stage.deaths.insert(stage.deaths.end(), found->second.begin(), found->second.end());
   read_time_steps(b, card, stage);
   check_early_end(b, card, stage);
+  read_control(b, card, stage);
   return stage;
 }
 
@@ -765,6 +766,7 @@ void build_stages(Builder& b) {
   if (b.model.stages.empty())
     b.error("S214", b.deck.one("control").where(), "the deck has no stages: nothing to compute");
   check_births(b);
+  check_controls(b);
 }
 
 }  // namespace sage::builder

@@ -100,6 +100,9 @@ void build_control(Builder& b);
 void build_plugins(Builder& b);  // those that the deck names must have been loaded
 // Behind a message about a code that is unknown; empty where no plug-in could have it.
 std::string plugin_hint(int code);
+// load_control of a stage card; check_controls: once all stages are known.
+void read_control(Builder& b, const CardView& card, Stage& stage);
+void check_controls(Builder& b);
 void build_nodes(Builder& b);
 void build_materials(Builder& b);
 void build_groups(Builder& b);

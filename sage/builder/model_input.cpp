@@ -215,6 +215,7 @@ void InputCards::add_stage(const StageInput& stage, int number) {
     if (value != 0.0) own.push_back({name, value});
   if (!stage.output_times.empty())
     own.push_back({"output_times", 0.0, {}, fmt::format("{}", fmt::join(stage.output_times, " "))});
+  if (!stage.load_control.empty()) own.push_back({"load_control", 0.0, {}, stage.load_control});
   const int card = add("stage", own);
   for (const SupportInput& support : stage.supports) add_support(support, "fixity", card);
   for (const LoadInput& load : stage.loads)

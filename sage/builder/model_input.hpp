@@ -78,6 +78,7 @@ struct StageInput {
   double grading = 1.0;  // each increment over the one before
   double time_error = 0.0, end_degree = 0.0, end_pressure = 0.0;  // as in Stage
   std::vector<double> output_times = {};
+  std::string load_control = {};  // as on the card: "12 y -0.05"
   std::vector<SupportInput> supports = {};
   std::vector<LoadInput> loads = {};
   std::vector<PressureInput> pressures = {};

@@ -149,7 +149,7 @@ struct Slots {
 };
 
 Slots slots_of(RecordSource records, const CardRule& rule, int line, std::size_t values_wanted) {
-  const std::string full(std::max<std::size_t>(400, records.source().line(line).size()), '0');
+  const std::string full(std::max<std::size_t>(480, records.source().line(line).size()), '0');
   records.replace(line, full);
   records.rewind_to(line);
   FormattedRead read(records, rule.format);

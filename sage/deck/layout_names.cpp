@@ -49,7 +49,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "stage", true, "",
      "increments duration method max_iterations output_every gravity_x gravity_y tolerance "
      "strength_factor pore_water theta grading reset_displacements time_error end_degree end_pressure "
-     "output_times",
+     "output_times load_control",
      ""},
     {"sage1", "load", false, "first x_force|y_force", "last step x_force y_force unknown history", "!stage"},
     {"sage1", "pressure", false, "element edge normal1 normal2", "last step shear1 shear2 unknown history",

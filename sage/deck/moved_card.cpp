@@ -10,7 +10,7 @@ namespace sage {
 namespace {
 
 constexpr int kFarthest = 4;           // columns: fields of integers are five wide
-constexpr std::size_t kLongest = 400;  // longer lines are no cards
+constexpr std::size_t kLongest = 480;  // longer lines are no cards
 
 std::size_t words_in(std::string_view text) {
   std::size_t count = 0;

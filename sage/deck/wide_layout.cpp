@@ -49,7 +49,7 @@ void lengthen_cards(Layout& layout) {
            {field("second_material", "material number of the second law, of elements that have two",
                   FieldKind::integer)});
   lengthen(
-      layout, "stage", "2F20.0,I10,2F20.0,I10,3F20.0,A80",
+      layout, "stage", "2F20.0,I10,2F20.0,I10,3F20.0,2A80",
       {field("duration", "time that the stage lasts, for laws that depend on it; blank = 1", FieldKind::real),
        field("strength_factor", "factor by which strengths were divided, for the table of results",
              FieldKind::real),
@@ -68,6 +68,10 @@ void lengthen_cards(Layout& layout) {
        field("end_pressure", "consolidation: the stage ends when no excess pressure is larger",
              FieldKind::real),
        field("output_times", "times since the start of the stage with output, with blanks between",
+             FieldKind::text),
+       field("load_control",
+             "displacement that controls the load: node, x or y, and its growth over the stage, as 12 y -0.05; "
+             "12 15 y 0.02 is that of node 12 less that of node 15",
              FieldKind::text)});
   for (const char* card : {"stage_fixity", "load"})
     lengthen(layout, card, "A80",
@@ -97,7 +101,7 @@ void lengthen_cards(Layout& layout) {
 Layout wide_layout(Layout layout) {
   layout.title += ", with wide fields";
   layout.name += "_wide";
-  layout.records.record_length = 5 * layout.records.record_length;  // the longest card is that of a stage
+  layout.records.record_length = 6 * layout.records.record_length;  // the longest card is that of a stage
   layout.first_sequence_column = layout.last_sequence_column = 0;
   layout.marks.clear();
   layout.example.clear();  // its columns are those of the narrow fields

@@ -241,6 +241,9 @@ class InpWriter {
     if (stage.time_error != 0.0 || stage.may_end_early() || !stage.output_times.empty())
       warning("stage " + std::to_string(stage.number) +
               ": its steps in time, ends and times of output are left out");
+    if (stage.is_controlled())
+      warning("stage " + std::to_string(stage.number) +
+              ": the displacement that controls its load is left out");
     if (stage.resets_displacements)
       warning("stage " + std::to_string(stage.number) + ": its reset of displacements is left out");
     if (!stage.births.empty() || !stage.deaths.empty())

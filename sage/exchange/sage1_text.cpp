@@ -126,6 +126,7 @@ class Sage1Writer {
   void exit(const Exit& exit);
   void initial(const InitialStress& initial);
   void list(const std::vector<int>& groups);
+  void control(const LoadControl& control);
   void stage(const Stage& stage);
   void write_list(const std::vector<int>& numbers);
   bool is_written(const Report& report) const;
@@ -402,8 +403,16 @@ void Sage1Writer::list(const std::vector<int>& groups) {
   write_list(numbers);
 }
 
+void Sage1Writer::control(const LoadControl& control) {
+  const std::string other = control.other < 0 ? "" : fmt::format(" {}", node_number(control.other));
+  name(fmt::format("{}{} {} {}", node_number(control.node), other, control.component == 0 ? 'x' : 'y',
+                   control.growth),
+       80);
+}
+
 void Sage1Writer::stage(const Stage& stage) {
-  const bool timed = stage.time_error != 0.0 || stage.may_end_early() || !stage.output_times.empty();
+  const bool timed =
+      stage.is_controlled() || stage.time_error != 0.0 || stage.may_end_early() || !stage.output_times.empty();
   const bool resets = timed || stage.resets_displacements;
   // Fields behind one another: each is written where one behind it is.
   const bool pores = resets || stage.pores != PoreWater::kept || stage.theta != 1.0 || stage.grading != 1.0;
@@ -437,6 +446,7 @@ void Sage1Writer::stage(const Stage& stage) {
     for (const double value : {stage.time_error, stage.end_degree, stage.end_pressure}) real(value);
     name(fmt::format("{}", fmt::join(stage.output_times, " ")), 80);
   }
+  if (stage.is_controlled()) control(stage.control);
   line();
   for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);

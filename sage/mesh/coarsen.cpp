@@ -325,6 +325,9 @@ void Coarsening::require_middle(Line& on) {
 void Coarsening::require_by_model() {
   for (const Stage& stage : model_->stages)
     for (const NodalLoad& load : stage.loads) require(load.node);
+  for (const Stage& stage : model_->stages)
+    for (const int node : {stage.control.node, stage.control.other})
+      if (node >= 0) require(node);
   // Of other fields than displacement no node is dropped that has a card.
   for (const FieldFixity& f : model_->field_fixities) require(f.node);
   for (const Stage& stage : model_->stages) {
@@ -596,6 +599,8 @@ void Coarsening::drop_nodes(std::vector<char> gone) {
     renumber(stage.field_fixities);
     renumber(stage.exits);
     renumber(stage.field_loads);
+    for (int* node : {&stage.control.node, &stage.control.other})
+      if (*node >= 0) *node = to[at(*node)];
   }
   for (Report& report : model_->reports) {
     std::erase_if(report.nodes, [&](int node) { return gone[at(node)] != 0; });

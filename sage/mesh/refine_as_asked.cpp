@@ -80,6 +80,12 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
     std::erase_if(stage.exits, holds_lost);
     refuse_lost(stage.loads);
     refuse_lost(stage.field_loads);
+    for (const int node : {stage.control.node, stage.control.other})
+      if (node >= 0 && is_lost(node))
+        b.error(
+            "S404", stage.where,
+            "node " + std::to_string(model.mesh.number[node]) +
+                " controls the load but is no node of the graded mesh; control it by a corner of an element");
   }
   for (Report& report : model.reports) {
     const auto of_deck = std::count_if(report.nodes.begin(), report.nodes.end(),

@@ -1063,6 +1063,27 @@ constexpr MessageEntry kMessages[] = {
      "A stage with end_degree or end_pressure ends after the first step that reaches it. The message is a "
      "warning if the duration ended first.",
      "If the duration was too short, make it longer."},
+    {"S581", "a load cannot be controlled by that displacement",
+     "The field load_control of a stage names one or two nodes, a direction and a growth. The stage is the "
+     "last one, uses "
+     "Newton's method and small strain, has loads but no prescribed displacements, and solves for "
+     "displacements alone.",
+     "Correct the field as the message states (docs/manual/stages.md)."},
+    {"S582", "the displacement that controls the load is not free",
+     "All nodes of load_control are supported in that direction, or belong to no active element.",
+     "Name a node that the load can move."},
+    {"S583", "safety with a load that is controlled by a displacement",
+     "Strength reduction needs loads that are known. The load of a stage with load_control is an unknown.",
+     "Remove load_control from the stage, and state the load for which the factor of safety is wanted."},
+    {"S584", "the displacement that controls the load cannot grow further",
+     "No equilibrium was found with a larger value of it. The usual reason is a snap-back: behind the peak, "
+     "load and "
+     "displacement decrease together. Soil beside a thin band that softens is unloaded, and moves back further "
+     "than the band "
+     "yields.",
+     "Control the load by a displacement that grows throughout: the difference of two nodes on both sides of "
+     "the band. A "
+     "larger softening strain or a larger band width removes the snap-back."},
     {"S585", "initial stresses raise the preconsolidation pressure",
      "The yield surface of the given preconsolidation pressure lies inside the initial stress. At those points "
      "sagefe enlarges the surface to the stress: the soil is normally consolidated.",

@@ -28,6 +28,7 @@ void add_stage(Archive& archive, const Stage& s) {
     add(archive, s.pores, s.theta, s.grading);
   if (s.time_error != 0.0 || s.may_end_early() || !s.output_times.empty())
     add(archive, s.time_error, s.end_degree, s.end_pressure, s.output_times);
+  if (s.is_controlled()) add(archive, s.control.node, s.control.other, s.control.component, s.control.growth);
   add(archive, s.title, s.increments, s.duration, s.method, s.max_iterations, s.output_every, s.tolerance,
       s.gravity.x(), s.gravity.y());
   add_fixities(archive, s.fixities);

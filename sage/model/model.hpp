@@ -226,6 +226,15 @@ enum class PoreWater {
   flows,    // consolidation
 };
 
+// Indirect displacement control: over its stage the displacement of a node, or what it exceeds that of another one by, grows
+// in proportion to the increments.  The share of the stage's loads that this needs is unknown, and may fall.
+struct LoadControl {
+  int node = -1;   // index; -1 = the loads grow by themselves
+  int other = -1;  // index of the node whose displacement is subtracted; -1 = none
+  int component = 0;
+  double growth = 0.0;
+};
+
 struct Stage {
   int number = 0;
   std::string title;
@@ -259,6 +268,7 @@ struct Stage {
   std::vector<InitialStress> initials;  // of groups born in this stage
   double strength_factor = 0.0;         // by which the strengths were divided for it; 0 = it is about no factor
   bool resets_displacements = false;    // displacements count from its start
+  LoadControl control;
   SourcePosition where;
 
   int given_increments() const { return divisions > 0 ? divisions : increments; }
@@ -266,6 +276,7 @@ struct Stage {
     const auto has = [](const auto& card) { return !card.history.empty(); };
     return std::ranges::any_of(field_fixities, has) || std::ranges::any_of(field_loads, has);
   }
+  bool is_controlled() const { return control.node >= 0; }
   bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }
 };
 

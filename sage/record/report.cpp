@@ -658,7 +658,7 @@ void Reports::on_increment(const Model& model, const StepReport& step, const Sol
 // The part of the increment that did converge is a state in equilibrium: it gets its row.
 void Reports::on_failure(const Model& model, const StepReport& step, const std::string&,
                          const Solution& solution) {
-  if (!series_.empty() && step.load_factor > series_.front().last_load_factor) add_rows(model, step, solution);
+  if (!series_.empty() && step.load_factor != series_.front().last_load_factor) add_rows(model, step, solution);
   for (Series& series : series_)
     series.file.text() += fmt::format(
         "# NOT CONVERGED in stage {}, increment {}: the last row is the last state in equilibrium, load factor "

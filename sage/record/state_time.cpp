@@ -26,6 +26,7 @@ double strain_of(const Report& report, const Mesh& mesh, const Stage& stage) {
 }  // namespace
 
 StateTime::StateTime(const Model& model) {
+  for (const Stage& stage : model.stages) controlled_.push_back(stage.is_controlled());
   is_strain_ = use_strain(model);
   if (is_strain_) return;
   bool given = false;
@@ -34,6 +35,8 @@ StateTime::StateTime(const Model& model) {
     given = given || stage.duration != 1.0;
   }
   meaning_ = given ? "sum of the durations of the stages" : "stage - 1 + load factor";
+  if (!given && std::ranges::find(controlled_, true) != controlled_.end())
+    meaning_ += ", of a controlled load the share of its increments";
 }
 
 bool StateTime::use_strain(const Model& model) {

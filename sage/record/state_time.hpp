@@ -18,16 +18,21 @@ class StateTime {
 
   // stage: from 0; load_factor: part of it that is applied.
   double at(int stage, double load_factor) const;
+  // A load that a displacement controls may fall: there the share of the increments counts.
   double at(const StepReport& report) const {
-    return at(report.stage, report.load_factor) - (is_strain_ ? 0.0 : report.early);
+    const double part = controlled_[static_cast<std::size_t>(report.stage)]
+                            ? static_cast<double>(report.increment) / report.increments
+                            : report.load_factor;
+    return at(report.stage, part) - (is_strain_ ? 0.0 : report.early);
   }
   const std::string& meaning() const { return meaning_; }
 
  private:
   bool use_strain(const Model& model);
 
-  std::vector<double> ends_;  // of the stages
-  double start_ = 0.0;        // of the first
+  std::vector<bool> controlled_;  // stages whose load a displacement controls
+  std::vector<double> ends_;      // of the stages
+  double start_ = 0.0;            // of the first
   std::string meaning_;
   bool is_strain_ = false;
 };

@@ -289,6 +289,12 @@ const std::vector<Row>& rows() {
          first(m).field_fixities.push_back({m.pore_field(), 0, FixityCode::fixed, 2.0, 0, {{0.5, 1.0}}});
        },
        of_flowing_pores},
+      {"controlled load",
+       {"", kStages, "displacement that controls its load"},
+       [](Model& m) {
+         first(m).loads.push_back({8, {0.0, -1.0}, 0});
+         first(m).control = {8, 7, 1, -0.25};
+       }},
       {"method", {"", kStages, kControl}, [](Model& m) { first(m).method = Method::dogleg; }},
       {"iterations", {"", kStages, kControl}, [](Model& m) { first(m).max_iterations = 40; }},
       {"output interval", {"", kStages, kControl}, [](Model& m) { first(m).output_every = 3; }},
@@ -487,7 +493,10 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
                                 end_degree, end_pressure, output_times, ends, divisions, method, max_iterations,
                                 output_every, output_at, tolerance, gravity, fixities, loads, field_fixities,
                                 field_loads, exits, pressures, births, deaths, initials, strength_factor,
-                                resets_displacements, where] = one;
+                                resets_displacements, control, where] = one;
+}
+[[maybe_unused]] void known(const LoadControl& one) {
+  [[maybe_unused]] const auto& [node, other, component, growth] = one;
 }
 [[maybe_unused]] void known(const NodalLoad& one) {
   [[maybe_unused]] const auto& [node, force, line] = one;
