@@ -1062,6 +1062,11 @@ constexpr MessageEntry kMessages[] = {
      "A stage with end_degree or end_pressure ends after the first step that reaches it. The message is a "
      "warning if the duration ended first.",
      "If the duration was too short, make it longer."},
+    {"S581", "a table of time of a load or displacement does not fit",
+     "The field history of a load, a pressure or a displacement has pairs of a time and a factor. Times count "
+     "from the start of the stage, ascend and end within its duration. The factor at time 0 is 0. Pressures on "
+     "structures, and pressures at large strains, cannot follow a table.",
+     "Correct the table. Put what acts at once into a stage of its own (docs/manual/stages.md)."},
     {"S585", "initial stresses raise the preconsolidation pressure",
      "The yield surface of the given preconsolidation pressure lies inside the initial stress. At those points "
      "sagefe enlarges the surface to the stress: the soil is normally consolidated.",
