@@ -353,8 +353,10 @@ void Analysis::Stages::take_loads() {
   path.force_end = external_force(model_, done_.stage);
   if (path.water_force.size() > 0) path.force_end += path.water_force;
   if (path.let_in.size() > 0) path.force_end += path.let_in;
+  Eigen::VectorXd beside_line = Eigen::VectorXd::Zero(now.size());
+  run_.add_histories(t, beside_line);
   const auto start_of = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
-    return (at - t * path.force_end) / (1.0 - t);
+    return (at - beside_line - t * path.force_end) / (1.0 - t);
   };
   path.force_start = start_of(now);
   path.external_start = start_of(state_.external);

@@ -42,8 +42,9 @@ void add_edge_loads(const Model& model, const std::vector<char>& active, const S
   for (const EdgeLoad& load : stage.pressures) {
     if (!active[load.group]) continue;
     const Group& group = model.groups[load.group];
+    const double share = share_of(load, 1.0, stage.duration);
     sum.add(group, load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
-      group.element->edge_load(x, load.edge, load.normal, load.shear, f);
+      group.element->edge_load(x, load.edge, share * load.normal, share * load.shear, f);
     });
   }
 }
@@ -65,7 +66,8 @@ void add_body_forces(const Model& model, std::size_t g, const Vector2& gravity, 
 
 // Point loads of a stage, in every field.
 void add_point_loads(const Stage& stage, const DofMap& map, Eigen::VectorXd& force) {
-  for (const NodalLoad& load : stage.loads) force.segment<2>(DofMap::displacement(load.node)) += load.force;
+  for (const NodalLoad& load : stage.loads)
+    force.segment<2>(DofMap::displacement(load.node)) += share_of(load, 1.0, stage.duration) * load.force;
   for (const FieldLoad& load : stage.field_loads)
     force[map.of(load.node, load.field)] += added_at(load, 1.0, stage.duration);
 }
@@ -122,11 +124,33 @@ Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activ
   return force;
 }
 
+Eigen::VectorXd table_loads(const Model& model, int stage, const Activity& activity, double load_factor) {
+  const Stage& now = model.stages[stage];
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(activity.dof_map.dofs());
+  const auto beside_line = [&](const auto& card) {
+    return share_of(card, load_factor, now.duration) - load_factor * share_of(card, 1.0, now.duration);
+  };
+  for (const NodalLoad& load : now.loads)
+    if (!load.history.empty())
+      force.segment<2>(DofMap::displacement(load.node)) += beside_line(load) * load.force;
+  LoadSum sum(model, activity.dof_map, force);
+  for (const EdgeLoad& load : now.pressures) {
+    if (load.history.empty() || !activity.group[load.group]) continue;
+    const double share = beside_line(load);
+    const Element& element = *model.groups[load.group].element;
+    sum.add(model.groups[load.group], load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
+      element.edge_load(x, load.edge, share * load.normal, share * load.shear, f);
+    });
+  }
+  return force;
+}
+
 Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map) {
   Eigen::VectorXd rate = Eigen::VectorXd::Zero(map.dofs());
   for (const Fixity& f : stage.fixities)
     for (std::size_t c = 0; c < 2; ++c)
-      if (f.code[c] == FixityCode::fixed) rate[DofMap::displacement(f.node, static_cast<int>(c))] = f.value[c];
+      if (f.code[c] == FixityCode::fixed)
+        rate[DofMap::displacement(f.node, static_cast<int>(c))] = share_of(f, 1.0, stage.duration) * f.value[c];
   for (const FieldFixity& f : stage.field_fixities)
     if (const int dof = map.of(f.node, f.field); dof >= 0 && f.code == FixityCode::fixed)
       rate[dof] = added_at(f, 1.0, stage.duration);

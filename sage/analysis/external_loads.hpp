@@ -20,6 +20,9 @@ Eigen::VectorXd weight_of(const Model& model, const std::vector<char>& groups, c
 // Nodal and edge loads that a stage (0-based) itself adds to what is active in it.  One entry per dof.
 Eigen::VectorXd stage_loads(const Model& model, int stage, const Activity& activity);
 
+// What loads on nodes and edges with a table of time differ at a load factor from loads that grow in proportion to it.
+Eigen::VectorXd table_loads(const Model& model, int stage, const Activity& activity, double load_factor);
+
 // Displacement that each prescribed dof gets over a stage.
 Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map);
 // Values of supports of the field at the start of a stage, one entry per dof: sums of those of the stages before, from the

@@ -111,6 +111,7 @@ double PoreSteps::error_of(double dt, const Eigen::VectorXd& first_rate,
                            const Eigen::VectorXd& last_rate) const {
   const Eigen::VectorXd& rate = run_.state.path.pores.rate;
   const double alone = kOfSecondDerivative * root_mean_square(run_.state.u - start_ - dt * first_rate);
+  if (rate.size() == 0) return alone;
   const Eigen::VectorXd third =
       2.0 * dt * ((last_rate - first_rate) / (1.0 - kFirstPart) - (first_rate - rate) / kFirstPart);
   return std::min(alone, kOfThirdDerivative * root_mean_square(third));
@@ -125,6 +126,10 @@ bool PoreSteps::open_in_no_time(double dt) {
   pores.error += root_mean_square(change) / (1.0 - kFirstPart);
   ++pores.steps;
   return true;
+}
+
+void PoreSteps::begin_increment() {
+  if (run_.stage().has_histories() && run_.state.path.pores.steps > 0) run_.state.path.pores.rate.resize(0);
 }
 
 bool PoreSteps::accept(double size) {

@@ -23,6 +23,8 @@ class PoreSteps {
   // Share of the stage that the next step takes on the way to a load factor.
   double next(double end) const;
   void begin_part(Part part, double size);
+  // A table of time may have a corner where an increment starts: rates of pressure before it say nothing of those behind it.
+  void begin_increment();
   // After both parts: true where the step may stay.  Otherwise next() is smaller, and the run goes back to its start.
   bool accept(double size);
   // The state at the start of a step that is taken back.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "sage/analysis/external_loads.hpp"
+
 namespace sage {
 
 // Loads and forces of the moved edges.
@@ -78,6 +80,11 @@ Eigen::VectorXd RunParts::loads_at(double load_factor) const {
 
 void RunParts::add_histories(double load_factor, Eigen::VectorXd& loads) const {
   const Stage& now = stage();
+  if (now.has_mechanical_histories()) {
+    const Eigen::VectorXd force = table_loads(model, state.place.stage, system.activity(), load_factor);
+    for (Eigen::Index dof = 0; dof < force.size(); ++dof)
+      if (assembly().in_use(static_cast<int>(dof))) loads[dof] += force[dof];
+  }
   for (const FieldLoad& load : now.field_loads) {
     const int dof = load.history.empty() ? -1 : system.activity().dof_map.of(load.node, load.field);
     if (dof >= 0 && assembly().in_use(dof))

@@ -83,6 +83,7 @@ bool StepControl::take_increment(StepReport& report) {
 bool StepControl::advance_by_error(StepReport& report, double end) {
   RunState& state = run_.state;
   if (!run_.assembly().eliminated().dofs().empty()) take_loads();
+  pore_steps_.begin_increment();
   while (state.reached < end && !state.path.pores.ended) {
     const double from = state.reached, size = pore_steps_.next(end);
     const double to = size >= end - from ? end : from + size;

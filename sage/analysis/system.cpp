@@ -90,14 +90,13 @@ void System::open_stage(int s) {
   if (stage.pores != PoreWater::flows)
     for (const auto& [dof, supported] : activity_.pores) rate_[dof] = 0.0;
   const bool eliminated_before = !assembly_->eliminated().dofs().empty();
-  // Dofs are eliminated for loads that grow with the displacements that supports prescribe, by shares that are known.
-  const auto make_solver = [&](int equations, bool symmetric) {
-    return make(*choose_solver(equations, symmetric), true);
-  };
-  if (stage.is_controlled())
+  // Dofs are eliminated for loads that grow along one line, by shares that are known.
+  if (stage.is_controlled() || stage.has_mechanical_histories())
     assembly_->enter_stage(activity_, rate_);
   else
-    assembly_->enter_stage(activity_, rate_, stage.increments, make_solver);
+    assembly_->enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
+      return make(*choose_solver(equations, symmetric), true);
+    });
   tangent_.set_rate(rate_);
   exits_.enter(model_, activity_, s);
   const bool same_pattern = !eliminated_before && assembly_->eliminated().dofs().empty() &&
@@ -121,6 +120,18 @@ bool System::switch_exits(const Eigen::VectorXd& u, const Eigen::VectorXd& du, c
 
 void System::take_histories(const Stage& stage, double from, double to) {
   bool changed = false;
+  const auto moves = [](const Fixity& f) { return !f.history.empty(); };
+  if (std::ranges::any_of(stage.fixities, moves)) {
+    const auto growth = [&](const Fixity& f) {
+      return (share_of(f, to, stage.duration) - share_of(f, from, stage.duration)) / (to - from);
+    };
+    for (const Fixity& f : stage.fixities)
+      for (std::size_t c = 0; c < 2; ++c)
+        if (f.code[c] == FixityCode::fixed)
+          rate_[DofMap::displacement(f.node, static_cast<int>(c))] =
+              f.history.empty() ? f.value[c] : growth(f) * f.value[c];
+    changed = true;
+  }
   for (const FieldFixity& f : stage.field_fixities) {
     const int dof = f.history.empty() ? -1 : activity_.dof_map.of(f.node, f.field);
     if (dof < 0 || f.code != FixityCode::fixed || stage.pores != PoreWater::flows) continue;

@@ -347,10 +347,17 @@ class GroundMaker {
     for (int s = 0; s <= stage_; ++s) {
       const Stage& stage = m_.stages[at(s)];
       const bool live = s >= first_live_;
-      for (const EdgeLoad& load : stage.pressures) add_pressure(load, live);
+      for (EdgeLoad load : stage.pressures) {
+        const double share = share_of(load, 1.0, stage.duration);
+        load.normal *= share;
+        load.shear *= share;
+        add_pressure(load, live);
+      }
       std::map<int, Vector2> forces;
       for (const NodalLoad& load : stage.loads)
-        if (!load.force.isZero(0.0)) forces.try_emplace(load.node, Vector2::Zero()).first->second += load.force;
+        if (!load.force.isZero(0.0))
+          forces.try_emplace(load.node, Vector2::Zero()).first->second +=
+              share_of(load, 1.0, stage.duration) * load.force;
       if (!forces.empty()) add_forces(forces, live, stage);
       if (live && (!stage.pressures.empty() || !forces.empty())) ground_.has_live = true;
     }

@@ -31,6 +31,7 @@ std::string refusal(const Builder& b, const Stage& stage) {
       !stage.exits.empty())
     return "it is not possible with unknowns besides displacements (pore pressures, heads)";
   if (moves_supports(stage)) return "a stage whose load is controlled must not prescribe displacements";
+  if (stage.has_histories()) return "its loads have tables of time, which state the loads already";
   if (!has_load(stage)) return "the stage has no load that could grow or fall";
   if (&stage != &b.model.stages.back())
     return "only the last stage can be controlled, since it may end at any load factor";

@@ -88,8 +88,26 @@ std::optional<std::vector<double>> numbers_of(const std::string& text) {
 
 constexpr std::size_t kColumnsOfText = 80;
 
+// Of a displacement, a force or an edge load.  duration: of the stage of the card; 0 = it is on no card of a stage.
+void check_mechanical_table(Builder& b, const CardView& card, const TimeTable& table, bool legible,
+                            double duration) {
+  const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
+  const auto error = [&](const std::string& text) { b.error("S591", card.where("history"), text); };
+  if (duration <= 0.0)
+    error("a table of time belongs on a load, pressure or fixity card of a stage");
+  else if (!legible)
+    error("a table of time is pairs of a time and a factor, with blanks between, of 80 characters at most");
+  else if (table.front().first < 0.0 || std::ranges::adjacent_find(table, falls) != table.end())
+    error("the times of a table count from the start of the stage and must ascend");
+  else if (table.back().first > duration)
+    error("the last time of the table, " + rounded_text(table.back().first, 6) +
+          ", is behind the end of the stage, whose duration is " + rounded_text(duration, 6));
+  else if (table.front().first == 0.0 && table.front().second != 0.0)
+    error("the factor at time 0 must be 0: what acts at once belongs in a stage before");
+}
+
 // field: of unknowns, 0 = displacement.
-TimeTable read_history_of_time(Builder& b, const CardView& card, int field) {
+TimeTable read_history_of_time(Builder& b, const CardView& card, int field, double duration) {
   if (card.blank("history")) return {};
   const std::string text = b.text(card, "history");
   const std::optional<std::vector<double>> numbers = numbers_of(text);
@@ -97,8 +115,13 @@ TimeTable read_history_of_time(Builder& b, const CardView& card, int field) {
   for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2)
     table.emplace_back((*numbers)[i], (*numbers)[i + 1]);
   const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
-  if (field == 0 || !b.model.unknowns[field].of_pores)
-    b.error("S579", card.where("history"), "a history is for the unknown excess_pressure alone");
+  if (field == 0)
+    check_mechanical_table(
+        b, card, table, numbers && numbers->size() % 2 == 0 && !table.empty() && text.size() <= kColumnsOfText,
+        duration);
+  else if (!b.model.unknowns[field].of_pores)
+    b.error("S579", card.where("history"),
+            "a history is for displacements, forces, stresses on edges and the unknown excess_pressure");
   else if (!numbers || numbers->size() % 2 != 0 || table.empty() || text.size() > kColumnsOfText)
     b.error("S579", card.where("history"),
             "a history is pairs of a time and a share, with blanks between, of 80 characters at most");
@@ -111,7 +134,7 @@ TimeTable read_history_of_time(Builder& b, const CardView& card, int field) {
 void read_field_fixity(Builder& b, const CardView& card, int field, const Fixity& fixity,
                        std::vector<FieldFixity>& out) {
   require_one_component(b, card, {"y_code", "y_value"});
-  const TimeTable history = read_history_of_time(b, card, field);
+  const TimeTable history = read_history_of_time(b, card, field, 0.0);
   for (int node : node_range(b, card)) {
     if (!has_unknown(b, card, node, field)) return;
     out.push_back({field, node, fixity.code[0], fixity.value[0], fixity.line, history});
@@ -138,9 +161,9 @@ bool read_exit(Builder& b, const CardView& card, int field, std::vector<Exit>* o
   return true;
 }
 
-// exits: of a stage; nullptr before the first.
-void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std::vector<Fixity>& out,
-                 std::vector<FieldFixity>& out_fields) {
+// exits: of a stage; nullptr before the first.  duration: of the stage, else 0.
+void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, double duration,
+                 std::vector<Fixity>& out, std::vector<FieldFixity>& out_fields) {
   const bool in_stage = exits != nullptr;
   const int field = read_unknown(b, card);
   if (field < 0 || read_exit(b, card, field, exits)) return;
@@ -175,7 +198,7 @@ void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std
     if (!in_stage && fixity.code[c] == FixityCode::released)
       b.error("S233", card.where(codes[c]), "only a stage can release a fixity (code -1)");
   if (field > 0) return read_field_fixity(b, card, field, fixity, out_fields);
-  read_history_of_time(b, card, field);
+  fixity.history = read_history_of_time(b, card, field, duration);
   for (int node : node_range(b, card)) {
     fixity.node = node;
     out.push_back(fixity);
@@ -185,7 +208,7 @@ void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, std
 }  // namespace
 
 void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
-               std::vector<FieldLoad>& out_fields) {
+               std::vector<FieldLoad>& out_fields, double duration) {
   const int field = read_unknown(b, card);
   if (field < 0) return;
   NodalLoad load{0, {card.real("x_force"), card.real("y_force")}, card.card().line};
@@ -193,14 +216,14 @@ void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
   b.usable(card, "y_force", load.force.y());
   if (field > 0) {
     require_one_component(b, card, {"y_force"});
-    const TimeTable history = read_history_of_time(b, card, field);
+    const TimeTable history = read_history_of_time(b, card, field, duration);
     for (int node : node_range(b, card)) {
       if (!has_unknown(b, card, node, field)) return;
       out_fields.push_back({field, node, load.force.x(), load.line, history});
     }
     return;
   }
-  read_history_of_time(b, card, field);
+  load.history = read_history_of_time(b, card, field, duration);
   for (int node : node_range(b, card)) {
     load.node = node;
     out.push_back(load);
@@ -297,7 +320,7 @@ void add_inflow(Builder& b, const CardView& card, const EdgeLoad& edge, int fiel
         "S230", card.where("unknown"),
         "element " + std::to_string(element) + " (" + group.element_name +
             "): an inflow of pore water, without shear, is for edges of solids that solve for its pressure");
-  const TimeTable flow = read_history_of_time(b, card, field);
+  const TimeTable flow = read_history_of_time(b, card, field, stage.duration);
   const std::array<double, 2> inflow = inflow_at_corners(b.model, group, edge.element, edge.edge, edge.normal);
   const std::vector<int>& local = group.element->edges()[edge.edge];
   for (std::size_t i = 0; i < 2; ++i) {
@@ -308,13 +331,27 @@ void add_inflow(Builder& b, const CardView& card, const EdgeLoad& edge, int fiel
   }
 }
 
+// Loads of these edges are found from their sums at both ends of a stage.
+void refuse_table_on_followed_edge(Builder& b, const CardView& card, const EdgeLoad& load) {
+  if (b.model.large_strain || b.model.groups[load.group].structure())
+    b.error("S591", card.where("history"),
+            std::string("a pressure on ") +
+                (b.model.large_strain ? "an edge at large strains" : "a structure") +
+                " cannot follow a table; divide the stage where its rate changes");
+}
+
 // A pressure, or an inflow of pore water in its columns.
 void read_edge_action(Builder& b, const CardView& card, Stage& stage) {
   const int field = read_unknown(b, card);
   if (field < 0) return;
   if (field == 0) {
-    read_history_of_time(b, card, field);
-    return read_pressure(b, card, stage.pressures);
+    const std::size_t before = stage.pressures.size();
+    read_pressure(b, card, stage.pressures);
+    const TimeTable history = read_history_of_time(b, card, field, stage.duration);
+    for (std::size_t i = before; i < stage.pressures.size(); ++i) stage.pressures[i].history = history;
+    if (!history.empty() && before < stage.pressures.size())
+      refuse_table_on_followed_edge(b, card, stage.pressures[before]);
+    return;
   }
   if (!b.model.unknowns[field].of_pores)
     return b.error("S230", card.where("unknown"),
@@ -578,17 +615,37 @@ std::vector<double> read_times(Builder& b, const CardView& card, double duration
   return times;
 }
 
-// Each output time is the end of an increment, besides those of the card.
-void divide_at_output_times(Stage& stage) {
+// Times within a stage at which a table of time changes its slope.  Those of pore water count where steps are chosen by their
+// error.
+std::vector<double> corners_of_tables(const Stage& stage) {
+  std::vector<double> times;
+  const auto add = [&](const auto& cards) {
+    for (const auto& card : cards)
+      for (const auto& [time, share] : card.history)
+        if (time > 0.0 && time < stage.duration) times.push_back(time);
+  };
+  add(stage.fixities);
+  add(stage.loads);
+  add(stage.pressures);
+  if (stage.time_error == 0.0) return times;
+  add(stage.field_fixities);
+  add(stage.field_loads);
+  return times;
+}
+
+// Each output time and each corner of a table is the end of an increment, besides those of the card.
+void divide_at_times(Stage& stage) {
   constexpr double kSame = rounding::kText;
-  if (stage.output_times.empty() || stage.increments < 1 || !(stage.grading > 0.0)) return;
+  std::vector<double> all = corners_of_tables(stage);
+  all.insert(all.begin(), stage.output_times.begin(), stage.output_times.end());
+  if (all.empty() || stage.increments < 1 || !(stage.grading > 0.0)) return;
   const GradedIncrements graded(stage.grading);
   std::vector<double> ends;
   for (int i = 1; i <= stage.increments; ++i) ends.push_back(graded.load_factor(0, i, stage.increments));
   const auto known = [&](double end) {
     return std::ranges::any_of(ends, [&](double one) { return std::abs(one - end) <= kSame * end; });
   };
-  for (const double time : stage.output_times)
+  for (const double time : all)
     if (!known(time / stage.duration)) ends.push_back(time / stage.duration);
   std::ranges::sort(ends);
   stage.divisions = stage.increments;
@@ -624,7 +681,7 @@ void read_time_steps(Builder& b, const CardView& card, Stage& stage) {
     b.error("S579", card.where("theta"),
             "theta must be blank where steps are chosen by their error: their method has its own");
   stage.output_times = read_times(b, card, stage.duration);
-  divide_at_output_times(stage);
+  divide_at_times(stage);
 }
 
 // What grows over a stage must not be cut short.
@@ -684,8 +741,9 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
         "S210", card.where("reset_displacements"),
         "code " + std::to_string(reset) + " is unknown; 0 displacements go on, 1 they count from this stage");
   for (const CardView& c : b.deck.all("fixity", card))
-    read_fixity(b, c, &stage.exits, stage.fixities, stage.field_fixities);
-  for (const CardView& c : b.deck.all("load", card)) read_load(b, c, stage.loads, stage.field_loads);
+    read_fixity(b, c, &stage.exits, stage.duration, stage.fixities, stage.field_fixities);
+  for (const CardView& c : b.deck.all("load", card))
+    read_load(b, c, stage.loads, stage.field_loads, stage.duration);
   for (const CardView& c : b.deck.all("pressure", card)) read_edge_action(b, c, stage);
   for (const CardView& c : b.deck.all("edge_load", card)) read_edge_load(b, c, stage.pressures, stage.loads);
   for (const CardView& c : b.deck.all("birth", card)) read_groups(b, c, false, stage.births);
@@ -749,7 +807,8 @@ void build_stages(Builder& b) {
   collect_unknowns(b.model);
   b.dof_map = DofMap(b.model);
   for (const CardView& card : b.deck.all("fixity"))
-    if (outside_stages(b.deck, card)) read_fixity(b, card, nullptr, b.model.fixities, b.model.field_fixities);
+    if (outside_stages(b.deck, card))
+      read_fixity(b, card, nullptr, 0.0, b.model.fixities, b.model.field_fixities);
   for (const CardView& card : b.deck.all("initial"))
     if (outside_stages(b.deck, card)) read_initial(b, card, false, b.model.initials);
   int number = 0;

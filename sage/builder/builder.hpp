@@ -89,8 +89,9 @@ struct Builder : mesh::Work {
 // Of build_stages.cpp, for the stages that build_steps.cpp makes.
 std::vector<int> node_range(Builder& b, const CardView& card);  // empty after an error
 bool outside_stages(const Deck& deck, const CardView& card);
+// duration: of the stage of the card; 0 = it belongs to no stage.
 void read_load(Builder& b, const CardView& card, std::vector<NodalLoad>& out,
-               std::vector<FieldLoad>& out_fields);
+               std::vector<FieldLoad>& out_fields, double duration = 0.0);
 void read_pressure(Builder& b, const CardView& card, std::vector<EdgeLoad>& out);
 
 // The cards that the builder knows, of a deck that has others: those of other programs, and model files.

@@ -74,22 +74,23 @@ void lengthen_cards(Layout& layout) {
              "12 15 y 0.02 is that of node 12 less that of node 15",
              FieldKind::text)});
   for (const char* card : {"stage_fixity", "load"})
-    lengthen(layout, card, "A80",
-             {field("history",
-                    "of an excess pressure: times since the start of the stage and the share of the value that "
-                    "is reached then, as 0 0 2 1 10 0.5; blank = in proportion to time",
-                    FieldKind::text)});
-  lengthen(
-      layout, "pressure", "A20,A80",
-      {field("unknown",
-             "unknown: blank: a stress; excess_pressure: inflow of pore water per area and time, in the "
-             "columns of the "
-             "pressure",
-             FieldKind::text),
-       field("history",
-             "of an inflow: times since the start of the stage and the share of it then, as 0 1 5 1 5.1 0; "
-             "blank = even",
-             FieldKind::text)});
+    lengthen(
+        layout, card, "A80",
+        {field("history",
+               "times since the start of the stage and the factor of the value that is reached then, as 0 0 2 "
+               "1 10 0.5; blank = in proportion to time",
+               FieldKind::text)});
+  lengthen(layout, "pressure", "A20,A80",
+           {field("unknown",
+                  "unknown: blank: a stress; excess_pressure: inflow of pore water per area and time, in the "
+                  "columns of the "
+                  "pressure",
+                  FieldKind::text),
+            field("history",
+                  "times since the start of the stage and the factor of the pressure that is reached then, as "
+                  "0 0 2 1; "
+                  "of an inflow: the share of it then, as 0 1 5 1 5.1 0; blank = even",
+                  FieldKind::text)});
   for (const char* initial : {"initial", "stage_initial"})
     lengthen(layout, initial, "I10,A40",
              {field("material", "kind 6: material number, in place of value 1", FieldKind::integer),

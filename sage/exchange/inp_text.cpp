@@ -251,6 +251,9 @@ class InpWriter {
     if (!stage.initials.empty())
       warning("stage " + std::to_string(stage.number) +
               ": initial stresses, histories and changes of laws are left out");
+    if (stage.has_mechanical_histories())
+      warning("stage " + std::to_string(stage.number) +
+              ": tables of time are left out; loads and displacements have their whole value at the end");
     boundary(stage, &stage == &model_.stages.front());
     if (!stage.loads.empty()) text_ += "*CLOAD\n";
     for (const NodalLoad& load : stage.loads)

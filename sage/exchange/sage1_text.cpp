@@ -123,6 +123,8 @@ class Sage1Writer {
   void fixity(const Fixity& fixity, bool in_stage);
   void fixity(const FieldFixity& fixity, bool in_stage);
   void unknown(int field, const TimeTable& history);
+  void end_with_table(const TimeTable& history);
+  void end_with_history(const TimeTable& history);
   void exit(const Exit& exit);
   void initial(const InitialStress& initial);
   void list(const std::vector<int>& groups);
@@ -340,7 +342,7 @@ void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
   // The displacement of a held dof is written though it is zero: left blank it would get a note.
   if (in_stage && (fixity.code[0] == FixityCode::fixed || fixity.code[1] == FixityCode::fixed))
     for (double value : fixity.value) real(value);
-  line();
+  end_with_table(fixity.history);
 }
 
 // The columns of y stay blank.
@@ -371,6 +373,15 @@ void Sage1Writer::exit(const Exit& exit) {
 
 void Sage1Writer::unknown(int field, const TimeTable& history) {
   name(model_.unknowns[field].name, 20);
+  end_with_history(history);
+}
+
+void Sage1Writer::end_with_table(const TimeTable& history) {
+  if (!history.empty()) text_.append(20, ' ');  // no unknown: a displacement, force or pressure
+  end_with_history(history);
+}
+
+void Sage1Writer::end_with_history(const TimeTable& history) {
   if (!history.empty() && !wide_) throw TooWide{"of the history of a support or load"};
   if (!history.empty()) name(history_text(history), 80);
   line();
@@ -456,7 +467,7 @@ void Sage1Writer::stage(const Stage& stage) {
     two_zeros();
     real(load.force.x());
     real(load.force.y());
-    line();
+    end_with_table(load.history);
   }
   for (const FieldLoad& load : stage.field_loads) {
     integer(node_number(load.node));
@@ -472,7 +483,7 @@ void Sage1Writer::stage(const Stage& stage) {
     integer(load.edge + (is_folded(load.group) && load.edge == 2 ? 2 : 1));
     two_zeros();
     for (double value : {load.normal[0], load.normal[1], load.shear[0], load.shear[1]}) real(value);
-    line();
+    end_with_table(load.history);
   }
   list(stage.births);
   list(stage.deaths);

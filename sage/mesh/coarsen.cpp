@@ -189,6 +189,8 @@ void Coarsening::find_loads() {
   for (std::size_t c = 0; c < cells_.size(); ++c)
     cell_of[{cells_[c].group, cells_[c].element}] = static_cast<int>(c);
   for (const Stage& stage : model_->stages) {
+    if (stage.has_mechanical_histories())
+      throw InputError("S591", stage.where, "--coarsen cannot merge loads or supports with tables of time");
     auto& loads = loads_.emplace_back();
     for (const EdgeLoad& p : stage.pressures) {
       const int c = cell_of.at({p.group, p.element});

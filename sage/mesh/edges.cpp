@@ -5,6 +5,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "sage/messages/error.hpp"
+
 namespace sage::mesh {
 
 namespace {
@@ -84,6 +86,7 @@ class Supports {
     for (const Fixity& f : list) {
       Fixity& all = cards_.try_emplace(f.node, Fixity{f.node, {}, {}, f.line}).first->second;
       all.line = f.line;
+      if (f.code[0] != FixityCode::unchanged || f.code[1] != FixityCode::unchanged) all.history = f.history;
       for (std::size_t c = 0; c < 2; ++c) {
         if (f.code[c] == FixityCode::unchanged) continue;
         all.code[c] = f.code[c];
@@ -136,6 +139,21 @@ class Supports {
     return edge.known.size() > 2 || held(made.node, c) || (here(before, c) && here(after, c));
   }
 
+  // Of the cards that move nodes of the edge.
+  const TimeTable& common_table(const CutEdge& edge) const {
+    static const TimeTable none;
+    const Fixity* first = nullptr;
+    for (const OnEdge& known : edge.known) {
+      const Fixity* f = card(known.node);
+      if (f == nullptr || f->value == std::array<double, 2>{}) continue;
+      if (first != nullptr && first->history != f->history)
+        throw InputError("S591", {{}, f->line, 0, 0},
+                         "a finer mesh needs the same table of time on both ends of an edge that is moved");
+      if (first == nullptr) first = f;
+    }
+    return first == nullptr ? none : first->history;
+  }
+
   void add_cards(const CutEdge& edge, std::vector<Fixity>& list) {
     const Fixity* first = nullptr;
     std::array<bool, 2> touched{};
@@ -146,9 +164,10 @@ class Supports {
       for (std::size_t c = 0; c < 2; ++c) touched[c] = touched[c] || f->code[c] != FixityCode::unchanged;
     }
     if (first == nullptr) return;
+    const TimeTable& history = common_table(edge);
     for (const OnEdge& made : edge.made) {
       const std::size_t behind = edge.behind(made);
-      Fixity f{made.node, {}, {}, first->line};
+      Fixity f{made.node, {}, {}, first->line, history};
       for (std::size_t c = 0; c < 2; ++c) {
         if (!touched[c]) continue;
         const bool hold = holds(edge, made, behind, c);

@@ -1100,6 +1100,11 @@ constexpr MessageEntry kMessages[] = {
      "Write 0 for each blank field of the card, or move the values by hand. sagefe echo shows the columns."},
 
     // S6: results, checkpoints and what is made of them.
+    {"S591", "a table of time of a load or displacement does not fit",
+     "The field history of a load, a pressure or a displacement has pairs of a time and a factor. Times count "
+     "from the start of the stage, ascend and end within its duration. The factor at time 0 is 0. Pressures on "
+     "structures, and pressures at large strains, cannot follow a table.",
+     "Correct the table. Put what acts at once into a stage of its own (docs/manual/stages.md)."},
     {"S600", "the error of steps in time",
      "A stage with time_error chooses its steps by a bound on the error of each step. Errors decay as the "
      "pressures do, so that the sum of these bounds is a bound on the error at every time of the stage.",

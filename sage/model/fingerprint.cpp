@@ -41,6 +41,9 @@ void add_stage(Archive& archive, const Stage& s) {
   const auto add_history = [&](const auto& card) {
     for (const auto& [time, share] : card.history) add(archive, time, share);
   };
+  for (const Fixity& f : s.fixities) add_history(f);
+  for (const NodalLoad& load : s.loads) add_history(load);
+  for (const EdgeLoad& load : s.pressures) add_history(load);
   for (const FieldFixity& f : s.field_fixities) add_history(f);
   for (const FieldLoad& load : s.field_loads) add_history(load);
   for (const FieldLoad& load : s.field_loads) add(archive, load.field, load.node, load.value);

@@ -98,18 +98,32 @@ void set_element(Group& group, const Catalogue& catalogue, int code, int formula
 
 enum class FixityCode { unchanged, fixed, released };
 
+// Shares of a value by the time since the start of a stage, ascending: linear between, from 0 at the start where that is left
+// out, the last share behind the last time.  Empty: in proportion to the load factor.
+using TimeTable = std::vector<std::pair<double, double>>;
+double share_at(const TimeTable& table, double time);
+std::string history_text(const TimeTable& table);  // "0 0 2 1", as on cards
+
+// Share of a card's value that is added at a load factor of its stage, which lasts that long.
+template <class Card>
+double share_of(const Card& card, double load_factor, double duration) {
+  return card.history.empty() ? load_factor : share_at(card.history, load_factor * duration);
+}
+
 // From its stage on.  `value` is the displacement added over the stage.
 struct Fixity {
   int node = 0;
   std::array<FixityCode, 2> code{};
   std::array<double, 2> value{};
   int line = 0;
+  TimeTable history = {};
 };
 
 struct NodalLoad {
   int node = 0;
   Vector2 force = Vector2::Zero();  // added over the stage
   int line = 0;
+  TimeTable history = {};
 };
 
 struct EdgeLoad {
@@ -119,13 +133,8 @@ struct EdgeLoad {
       Vector2::Zero();  // pressure > 0 pushes into the element, at the edge's first and second corner
   Vector2 shear = Vector2::Zero();
   int line = 0;
+  TimeTable history = {};
 };
-
-// Shares of a value by the time since the start of a stage, ascending: linear between, from 0 at the start where that is left
-// out, the last share behind the last time.  Empty: in proportion to the load factor.
-using TimeTable = std::vector<std::pair<double, double>>;
-double share_at(const TimeTable& table, double time);
-std::string history_text(const TimeTable& table);  // "0 0 2 1", as on cards
 
 // A support or a load in a field of one number a node (Model::unknowns); as Fixity and NodalLoad are.
 struct FieldFixity {
@@ -146,7 +155,7 @@ struct FieldLoad {
 // What a support or a load of a field has added at a load factor of its stage, which lasts that long.
 template <class Card>
 double added_at(const Card& card, double load_factor, double duration) {
-  return card.value * (card.history.empty() ? load_factor : share_at(card.history, load_factor * duration));
+  return card.value * share_of(card, load_factor, duration);
 }
 
 // From its stage on, until a card holds or releases the head of the node: water may leave there, and does as soon
@@ -251,7 +260,7 @@ struct Stage {
   std::vector<double> output_times;  // since the start of the stage; each is the end of an increment
   std::vector<double> ends;          // load factors at the ends of increments; empty = by the grading
   int divisions =
-      0;  // increments of the card, where `increments` counts those of output_times too; 0 = none are added
+      0;  // increments of the card, where `increments` counts those of output and table times too; 0 = none are added
   Method method = Method::newton;
   int max_iterations = 25;
   int output_every = 1;
@@ -272,9 +281,16 @@ struct Stage {
   SourcePosition where;
 
   int given_increments() const { return divisions > 0 ? divisions : increments; }
+  // Of displacements, forces and edge loads.
+  bool has_mechanical_histories() const {
+    const auto has = [](const auto& card) { return !card.history.empty(); };
+    return std::ranges::any_of(fixities, has) || std::ranges::any_of(loads, has) ||
+           std::ranges::any_of(pressures, has);
+  }
   bool has_histories() const {
     const auto has = [](const auto& card) { return !card.history.empty(); };
-    return std::ranges::any_of(field_fixities, has) || std::ranges::any_of(field_loads, has);
+    return has_mechanical_histories() || std::ranges::any_of(field_fixities, has) ||
+           std::ranges::any_of(field_loads, has);
   }
   bool is_controlled() const { return control.node >= 0; }
   bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }

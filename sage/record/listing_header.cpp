@@ -293,6 +293,10 @@ void stage(std::string& text, const Model& model, int index) {
     add(fmt::format("{} directions held or moved", n));
   if (const auto n = fixity_count(s.fixities, FixityCode::released))
     add(fmt::format("{} directions released", n));
+  const auto by_table = [](const auto& card) { return !card.history.empty(); };
+  const auto tables = std::ranges::count_if(s.fixities, by_table) + std::ranges::count_if(s.loads, by_table) +
+                      std::ranges::count_if(s.pressures, by_table);
+  if (tables > 0) add(fmt::format("{} of these loads and supports follow tables of time", tables));
   if (!parts.empty()) fmt::format_to(to(text), "   {}\n", parts);
   states_of_stage(text, model, index);
 }

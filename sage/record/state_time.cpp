@@ -46,7 +46,8 @@ bool StateTime::use_strain(const Model& model) {
   start_ = -static_cast<double>(report->stage);
   std::vector<double> ends;
   for (std::size_t s = 0; s < model.stages.size(); ++s) {
-    const double strain = s < first ? 1.0 : strain_of(*report, model.mesh, model.stages[s]);
+    const bool by_tables = model.stages[s].has_mechanical_histories();
+    const double strain = by_tables ? 0.0 : s < first ? 1.0 : strain_of(*report, model.mesh, model.stages[s]);
     if (!(strain > 0.0)) {
       start_ = 0.0;
       return false;

@@ -480,7 +480,7 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [stage, group, kind, action, value, line, nodes, where] = one;
 }
 [[maybe_unused]] void known(const Fixity& one) {
-  [[maybe_unused]] const auto& [node, code, value, line] = one;
+  [[maybe_unused]] const auto& [node, code, value, line, history] = one;
 }
 [[maybe_unused]] void known(const FieldFixity& one) {
   [[maybe_unused]] const auto& [field, node, code, value, line, history] = one;
@@ -499,13 +499,13 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [node, other, component, growth] = one;
 }
 [[maybe_unused]] void known(const NodalLoad& one) {
-  [[maybe_unused]] const auto& [node, force, line] = one;
+  [[maybe_unused]] const auto& [node, force, line, history] = one;
 }
 [[maybe_unused]] void known(const FieldLoad& one) {
   [[maybe_unused]] const auto& [field, node, value, line, history] = one;
 }
 [[maybe_unused]] void known(const EdgeLoad& one) {
-  [[maybe_unused]] const auto& [group, element, edge, normal, shear, line] = one;
+  [[maybe_unused]] const auto& [group, element, edge, normal, shear, line, history] = one;
 }
 [[maybe_unused]] void known(const Report& one) {
   [[maybe_unused]] const auto& [kind, group, nodes, height, area, cell_pressure, place, name, fields, stage,
