@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/step_iteration.hpp"
@@ -71,6 +72,12 @@ void ControlledLoad::correct(StepIteration& step) {
   step.residual += change * load_;
   target_ += change * direction_;
   change_ += change;
+}
+
+bool drops_off(const RunParts& run, double share) {
+  constexpr double kMost = 0.2;  // of the largest load of the stage
+  const StagePath& path = run.state.path;
+  return std::abs(share) < std::abs(path.load_share) - kMost * path.largest_share;
 }
 
 std::string explain_controlled(const RunParts& run, const StepReport& report, const NewtonStep& step) {

@@ -42,6 +42,10 @@ class ControlledLoad {
   double change_ = 0.0;
 };
 
+// The load falls so far within a step to this share of the loads that the step may have left the path of equilibria: behind
+// a snap-back others are found, further on.
+bool drops_off(const RunParts& run, double share);
+
 // The end of a run in a stage whose controlled displacement can't grow any more.
 std::string explain_controlled(const RunParts& run, const StepReport& report, const NewtonStep& step);
 

@@ -51,6 +51,7 @@ struct StagePath {
   double stiffest = 0.0, last_stiffness = 0.0;  // along the motion: largest so far, of the last step
   double path_error = 0.0;                      // largest so far
   double load_share = 0.0;     // of the stage's loads, at the committed state; where it is controlled
+  double largest_share = 0.0;  // of these so far
   double control_start = 0.0;  // the displacement that controls it, at the start of the stage
   bool own_tangent = false;    // modified Newton, initial stiffness: steps begin with K of their start
   int relaxed = 0;         // steps found by dynamic relaxation: if any, others are relaxed before they are cut
@@ -60,7 +61,7 @@ struct StagePath {
   // No step of the stage has been taken yet; loads and pore pressures stay.
   void begin() {
     forget_steps();
-    path_error = load_share = 0.0;
+    path_error = load_share = largest_share = 0.0;
     own_tangent = false;
     relaxed = 0;
     loose_part.clear();
@@ -103,6 +104,7 @@ struct RunState {
     archive(path.last_stiffness);
     archive(path.path_error);
     archive(path.load_share);
+    archive(path.largest_share);
     archive(path.control_start);
     archive(path.own_tangent);
     archive(path.relaxed);

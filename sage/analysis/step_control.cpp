@@ -128,6 +128,8 @@ bool StepControl::advance(StepReport& report, double end, double whole) {
       on_last_way_ = false;
       step = damped_.attempt(report, state.reached, to, step);
     }
+    if (run_.stage().is_controlled() && drops_off(run_, stepper_.load_share()))
+      step.outcome = StepOutcome::not_converged;
     if (record(report, step, tried)) {
       const double error = run_.assembly().path_error();
       if (error > kPathTolerance && tried > 1.001 * kSmallestPart * whole) {
@@ -210,7 +212,10 @@ void StepControl::move_to(double load_factor) {
   if (sees_unknowns(assembly)) state.u_before = state.u;
   state.u += state.du;
   state.reached = load_factor;
-  if (run_.stage().is_controlled()) state.path.load_share = stepper_.load_share();
+  if (run_.stage().is_controlled()) {
+    state.path.load_share = stepper_.load_share();
+    state.path.largest_share = std::max(state.path.largest_share, std::abs(state.path.load_share));
+  }
   const double share = run_.load_share();
   state.external = (1.0 - share) * state.path.external_start + share * state.path.force_end;
   run_.add_histories(load_factor, state.external);

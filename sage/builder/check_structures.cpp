@@ -180,8 +180,8 @@ bool may_slip(const Model& model, const Group& group) {
 // Interfaces of two pairs along a curve: each follows a chord, and at a node that two chords share slip along the one opens
 // or closes the other, so that a smooth pipe is held as if it were bonded.
 void check_curved_joints(Builder& b) {
-  constexpr double kStraight = 0.5, kCorner = 60.0;  // degrees from one to the next
-  constexpr int kCurve = 3;                          // turns that make one
+  constexpr double kAlong = 0.5, kCorner = 60.0;  // degrees from one to the next
+  constexpr int kCurve = 3;                       // turns that make one
   const Model& model = b.model;
   for (const Group& group : model.groups) {
     if (!group.interface() || group.node_count() != 4 || !may_slip(model, group)) continue;
@@ -198,7 +198,7 @@ void check_curved_joints(Builder& b) {
       if (next == from.end()) continue;
       const Vector2 a = way(e), c = way(next->second);
       const double turn = std::abs(std::atan2(a.x() * c.y() - a.y() * c.x(), a.dot(c))) / kRadiansPerDegree;
-      if (turn < kStraight || turn > kCorner) continue;
+      if (turn < kAlong || turn > kCorner) continue;
       if (++turns == 1) first = e;
       sharpest = std::max(sharpest, turn);
     }

@@ -52,7 +52,7 @@ struct Column {
     input.supports = {{{1}, kFixed, kFixed}, {{2}, kFree, kFixed}, {{5, 6}, kFixed, kFree}};
     StageInput press;
     press.increments = 20;
-    press.tolerance = 1e-12;
+    press.tolerance = 1e-10;
     press.loads = {{{5, 6}, 0.0, -kLoad}};
     input.stages = {press};
   }
@@ -100,6 +100,7 @@ TEST(LoadControl, FollowsASofteningColumnPastItsPeak) {
 }
 
 // With 1 / (2 EA) five times as large the same sum is 2.04 > 1: the loaded node has to rise while the element softens.
+// Beyond, where the element has softened to the end, there are equilibria again: they are not those of the path.
 TEST(LoadControl, NamesASnapBack) {
   Column column(100.0);
   column.stage().load_control = "5 y -0.2";
