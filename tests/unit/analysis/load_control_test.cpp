@@ -129,7 +129,7 @@ ModelInput footing() {
   const auto node = [](int i, int j) { return j * (kColumns + 1) + i + 1; };
   for (int j = 0; j <= kRows; ++j)
     for (int i = 0; i <= kColumns; ++i) input.nodes.emplace_back(i, j);
-  GroupInput soil{"quad4", 1}, block{"quad4", 2};
+  GroupInput soil{"quad4", 1, {}}, block{"quad4", 2, {}};
   const auto cell = [](int a, int b, int c, int d) { return std::vector{a, b, c, d}; };
   for (int j = 0; j < kRows; ++j)
     for (int i = 0; i < kColumns; ++i)
