@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "elements/edge_load.hpp"
 #include "elements/extrapolation.hpp"
@@ -678,5 +679,21 @@ template class Beam3<PlaneStrain, Release::axial>;
 template class Beam3<Axisymmetric, Release::axial>;
 template class Beam3<PlaneStrain, Release::shear>;
 template class Beam3<Axisymmetric, Release::shear>;
+
+template <class Kinematics>
+void RotationalSpring<Kinematics>::geometry(const NodeCoordinates& x, std::span<double> out) const {
+  if (!x.allFinite()) throw ElementShapeError("rotational spring: a coordinate is not a number");
+  const double width = Kinematics::measure(x(0, 0));
+  if (!(width > 0.0))
+    throw ElementShapeError("rotational spring: its node has the radius " + std::to_string(x(0, 0)) +
+                            "; a circle of springs needs one above 0");
+  std::ranges::fill(out, 0.0);
+  out.front() = width;
+  Eigen::Map<OperatorT<kStrains, 4>> Bt(out.data() + 1);
+  Bt.col(kBending) << 0.0, 0.0, -1.0, 1.0;
+}
+
+template class RotationalSpring<PlaneStrain>;
+template class RotationalSpring<Axisymmetric>;
 
 }  // namespace sage

@@ -6,6 +6,7 @@
 // strain the two hoop strains are zero, as for solids.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -74,6 +75,27 @@ class Beam2 final : public Element {
 
  private:
   ElementTraits traits_;
+};
+
+// A spring between the two rotations of a hinge, at one node: its moment per radian is the law's bending stiffness.
+// Dofs: u v, rotation, hinge_rotation.  Bending is by how much the beams of the hinge turn more than the others, an angle;
+// the other four strains are zero.  In axisymmetry for each unit of circumference.
+template <class Kinematics>
+class RotationalSpring final : public PointElement<5, 4, 1> {
+ public:
+  explicit RotationalSpring(std::string_view name)
+      : PointElement({.name = name,
+                      .geometry = Kinematics::geometry,
+                      .nodes = 1,
+                      .dofs = 4,
+                      .points = 1,
+                      .law_size = 5}) {}
+  void geometry(const NodeCoordinates& x, std::span<double> out) const override;
+  Vector2 position(const NodeCoordinates& x, int /*point*/) const override { return x.col(0); }
+  std::span<const double> point_to_node(const NodeCoordinates& /*x*/) const override {
+    static constexpr std::array<double, 1> same{1.0};
+    return same;
+  }
 };
 
 }  // namespace sage

@@ -54,5 +54,6 @@ ElementEntry beam2_axial_release_entry();
 ElementEntry beam3_axial_release_entry();
 ElementEntry beam2_shear_release_entry();
 ElementEntry beam3_shear_release_entry();
+ElementEntry rotational_spring1_entry();
 
 }  // namespace sage

@@ -65,6 +65,7 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(54, beam3_axial_release_entry());
   catalogue.elements.add(55, beam2_shear_release_entry());
   catalogue.elements.add(56, beam3_shear_release_entry());
+  catalogue.elements.add(57, rotational_spring1_entry());
 }
 
 }  // namespace sage

@@ -222,4 +222,16 @@ ElementEntry beam3_shear_release_entry() {
       beam3_choices<Release::shear>("beam3_shear_release", "beam3_shear_release halves"));
 }
 
+ElementEntry rotational_spring1_entry() {
+  ElementEntry entry =
+      line_entry({.name = "rotational_spring1", .summary = "rotational spring of a hinge, at one node"}, 2, 5);
+  entry.nodes = entry.card_nodes = entry.corners = 1;
+  entry.parent_nodes = {{0.0, 0.0}};
+  entry.vtk = {1, {}};
+  entry.unknowns = {{displacement_field()}, {rotation("rotation")}, {rotation("hinge_rotation")}};
+  return element_entry(std::move(entry),
+                       {in_both<RotationalSpring>({1, "one point", "the stiffness is a moment per radian"},
+                                                  "rotational_spring1", 1)});
+}
+
 }  // namespace sage

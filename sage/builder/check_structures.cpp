@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "sage/builder/builder.hpp"
@@ -414,7 +415,8 @@ void check_strips(Builder& b) {
   if (model.geometry != Geometry::axisymmetric) return;
   const double on_axis = 1e-9 * model.mesh.x.row(0).cwiseAbs().maxCoeff();
   for (const Group& group : model.groups) {
-    if (!group.structure() || !is_strip(model.material_of(group).law_ref())) continue;
+    if (!group.structure() || group.entry->corners < 2 || !is_strip(model.material_of(group).law_ref()))
+      continue;
     for (int e = 0; e < group.elements(); ++e) {
       const int* const nodes = group.nodes_of(e);
       if (model.mesh.x(0, nodes[0]) > on_axis && model.mesh.x(0, nodes[1]) > on_axis) continue;
@@ -425,6 +427,64 @@ void check_strips(Builder& b) {
               "that meet there have no width, and their moment grows as 1/r towards the axis, without "
               "bound as elements get smaller");
       break;
+    }
+  }
+}
+
+// A spring between two rotations of one node.
+bool joins_rotations(const Group& group) {
+  return group.structure() && group.node_count() == 1 &&
+         std::ranges::count_if(group.entry->unknowns,
+                               [](const ElementUnknown& unknown) { return unknown.field.turns; }) == 2;
+}
+
+// Rotations that anything but rotational springs acts on: elements, and supports of any stage.
+std::set<std::pair<int, std::string>> rotations_in_use(const Model& model) {
+  std::set<std::pair<int, std::string>> used;
+  for (const Group& group : model.groups) {
+    if (joins_rotations(group)) continue;
+    for (const ElementUnknown& unknown : group.entry->unknowns) {
+      if (!unknown.field.turns) continue;
+      for (int e = 0; e < group.elements(); ++e)
+        for (std::size_t i = 0; i < group.node_count(); ++i)
+          if (unknown.nodes.empty() || std::ranges::count(unknown.nodes, static_cast<int>(i)) > 0)
+            used.emplace(group.nodes_of(e)[i], unknown.field.name);
+    }
+  }
+  const auto held = [&](const std::vector<FieldFixity>& cards) {
+    for (const FieldFixity& card : cards)
+      if (card.code == FixityCode::fixed) used.emplace(card.node, model.unknowns[card.field].name);
+  };
+  held(model.field_fixities);
+  for (const Stage& stage : model.stages) held(stage.field_fixities);
+  return used;
+}
+
+// A rotational spring whose stiffness comes from a thickness, or that nothing turns at one of its ends.
+void check_rotational_springs(Builder& b) {
+  const Model& model = b.model;
+  if (std::ranges::none_of(model.groups, joins_rotations)) return;
+  const auto used = rotations_in_use(model);
+  for (const Group& group : model.groups) {
+    if (!joins_rotations(group)) continue;
+    const Material& material = model.material_of(group);
+    if (std::ranges::any_of(material.entry->parameters,
+                            [](const Parameter& p) { return p.role == ParameterRole::thickness; }))
+      b.error("S625", group.where,
+              "group " + std::to_string(group.number) + ": " + material.law_name + " is no law for a " +
+                  group.element_name +
+                  ", whose bending_stiffness is a moment per radian; use section_elastic "
+                  "or section_plastic");
+    for (int e = 0; e < group.elements(); ++e) {
+      const int node = group.nodes_of(e)[0];
+      for (const ElementUnknown& unknown : group.entry->unknowns) {
+        if (!unknown.field.turns || used.contains({node, unknown.field.name})) continue;
+        b.error("S626", b.at_line(line_of(group, e)),
+                "element " + element_number(group, e) + " (" + group.element_name + "): node " +
+                    node_number(model, node) + " has no beam with " + unknown.field.name +
+                    " and no support of it, so that the spring has no effect; let one of the beams there start "
+                    "with a hinge and another end without, or hold the rotation");
+      }
     }
   }
 }
@@ -461,6 +521,7 @@ void check_structures(Builder& b) {
   check_faces(b);
   check_releases(b);
   check_strips(b);
+  check_rotational_springs(b);
   check_curved_joints(b);
   for (const InitialStress& initial : b.model.initials) check_prestress(b, initial);
   for (const Stage& stage : b.model.stages)

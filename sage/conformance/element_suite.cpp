@@ -576,7 +576,7 @@ Eigen::MatrixXd rigid_motions_with_turning(const ElementCase& c, const Eigen::Ma
 }
 
 // Beams and shells: rigid motions are free, every other motion is resisted, and what is resisted is symmetric where
-// the law is.
+// the law is.  A structure of one node resists the difference of its two rotations alone.
 TEST_P(Elements, TurningStructuresResistAllButRigidMotions) {
   const ElasticLaws laws;
   for (const ElementCase& c : turning_cases()) {
@@ -591,7 +591,7 @@ TEST_P(Elements, TurningStructuresResistAllButRigidMotions) {
       EXPECT_LT((run.K - run.K.transpose()).norm(), 1e-14 * run.K.norm());
       const Eigen::VectorXd stiffness = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(run.K).eigenvalues();
       const Eigen::Index resisted = (stiffness.array() > 1e-9 * stiffness.maxCoeff()).count();
-      EXPECT_EQ(resisted, element->traits().dofs - rigid.cols());
+      EXPECT_EQ(resisted, c.entry->nodes < 2 ? 1 : element->traits().dofs - rigid.cols());
     }
   }
 }
@@ -628,7 +628,7 @@ TEST_P(Elements, MovingElementsHaveTheDerivativeOfTheirForce) {
 TEST_P(Elements, TurningStructuresHaveTheStrainOfAUniformField) {
   const ElasticLaws laws;
   for (const ElementCase& c : turning_cases()) {
-    if (c.entry->law_size != 5) continue;
+    if (c.entry->law_size != 5 || c.entry->nodes < 2) continue;
     SCOPED_TRACE(c.name);
     const auto element = c.make();
     const Eigen::Matrix2Xd x = sample_shape(*c.entry);

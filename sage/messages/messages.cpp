@@ -1187,6 +1187,16 @@ constexpr MessageEntry kMessages[] = {
      "No run has a field of this name at nodes or integration points. Or the page itself derives the field "
      "from the stress (mean, deviator, principal stresses).",
      "Use a name of the list in the message. stress, strain and displacement have all their components."},
+    {"S625", "a law that is no rotational spring",
+     "The stiffness of a rotational spring is a moment per radian, the bending_stiffness of its law. This law "
+     "computes its bending stiffness from a modulus and a thickness.",
+     "Give the spring a material of its own, with the law section_elastic or section_plastic "
+     "(docs/manual/structures.md)."},
+    {"S626", "a rotational spring turns nothing",
+     "A rotational spring joins rotation and hinge_rotation of its node. No beam and no support uses one of "
+     "them there, so that the spring turns with the other and has no moment.",
+     "Let one beam at the node start with a hinge, and another one end there without a hinge. Or hold the "
+     "rotation of the node by a fixity card, which makes the spring a support."},
     {"S630", "the checkpoint does not fit",
      "The checkpoint belongs to another deck, other options, other outputs or another build, or files that it "
      "continues have changed since. To continue would mix two runs.",

@@ -168,10 +168,11 @@ class EndReader {
   Section section_at(int element, int end, bool ring) {
     const int node = end - 1;
     Section section = extrapolated(element, node);
+    if (ring) return section;
     double width = 1.0;
     if (traits_.geometry == Geometry::axisymmetric) {
       const double r = x_(0, node);
-      if (ring || !(r > kOnAxis * x_.row(0).maxCoeff())) return section;
+      if (!(r > kOnAxis * x_.row(0).maxCoeff())) return section;
       width = 2.0 * static_cast<double>(EIGEN_PI) * r;
     }
     const double towards = (end == 1 ? -1.0 : 1.0) / width;

@@ -24,7 +24,8 @@ namespace sage::test {
 namespace {
 
 constexpr int kBar2 = 31, kBeam2 = 35, kBeam3 = 36, kPinned2 = 51, kPinned3 = 52, kAxialRelease2 = 53,
-              kAxialRelease3 = 54, kShearRelease2 = 55, kShearRelease3 = 56;
+              kAxialRelease3 = 54, kShearRelease2 = 55, kShearRelease3 = 56, kHinged2 = 37, kHinged3 = 38,
+              kRotationalSpring = 57;
 constexpr int kAxial = 31, kPlateLaw = 35, kSection = 36, kPlasticLaw = 37, kGoodman = 21;
 constexpr double kEI = 1e4, kGA = 4e5;
 
@@ -474,6 +475,140 @@ TEST(Releases, PinnedBeamsHaveNoMomentAtTheirEnds) {
     EXPECT_NEAR(ends[0].value[kShearForce], 6.0, 1e-8);
     EXPECT_NEAR(ends[1].value[kShearForce], -6.0, 1e-8);
   }
+}
+
+constexpr double kSpan = 6.0, kLoad = 4.0;
+
+// Along x from node 1 to 3 two beams that start with hinges at the held ends, and a spring in either hinge.
+DeckWriter sprung_span(int element, int spring_law, const std::vector<double>& spring) {
+  DeckWriter deck(1);
+  for (int i = 0; i < 3; ++i) deck.node(i + 1, 0.5 * kSpan * i, 0.0);
+  deck.material(1, kSection, {1e6, kEI, kGA});
+  deck.material(2, spring_law, spring);
+  deck.group(1, element, 0, 1);
+  deck.group(2, kRotationalSpring, 0, 2);
+  if (element == kHinged3) {
+    deck.node(4, 0.25 * kSpan, 0.0);
+    deck.node(5, 0.75 * kSpan, 0.0);
+    deck.element(1, 1, {1, 2, 4});
+    deck.element(2, 1, {3, 2, 5});
+  } else {
+    deck.element(1, 1, {1, 2});
+    deck.element(2, 1, {3, 2});
+  }
+  deck.element(3, 2, {1, 1});
+  deck.element(4, 2, {3, 3});
+  clamp(deck, 1);
+  clamp(deck, 3);
+  return deck;
+}
+
+// Downward on both beams: to the right of the first, to the left of the second.
+void press(StageCards& stage, double q) {
+  stage.pressure(1, 1, -q, -q);
+  stage.pressure(2, 1, q, q);
+}
+
+// By symmetry the ends turn by (q L^3/24 - M L/2)/EI = M/k, whatever the beam's shear stiffness.
+double sprung_moment(double k) {
+  return kLoad * kSpan * kSpan / 12.0 / (1.0 + 2.0 * kEI / (k * kSpan));
+}
+
+// From a hinge to a clamp; beam2 is exact under a uniform load.
+TEST(RotationalSprings, HoldTheEndsOfASpan) {
+  for (const double k : {1e-6, 1e2, 2e3, 1e5, 1e12}) {
+    DeckWriter deck = sprung_span(kHinged2, kSection, {1.0, k});
+    press(deck.stage(), kLoad);
+    const Kept kept(deck);
+    ASSERT_TRUE(kept.completed()) << k;
+    const double M = sprung_moment(k);
+    const std::vector<ElementEnd> beams = kept.ends(0), springs = kept.ends(1);
+    ASSERT_EQ(springs.size(), 2u);
+    EXPECT_NEAR(springs[0].value[kBendingMoment], -M, 1e-10 * kLoad * kSpan * kSpan) << k;
+    EXPECT_NEAR(springs[1].value[kBendingMoment], M, 1e-10 * kLoad * kSpan * kSpan) << k;
+    EXPECT_NEAR(springs[0].value[kAxialForce], 0.0, 1e-12) << k;
+    EXPECT_NEAR(beams[0].value[kBendingMoment], -M, 1e-10 * kLoad * kSpan * kSpan) << k;
+    EXPECT_NEAR(beams[1].value[kBendingMoment], kLoad * kSpan * kSpan / 8.0 - M, 1e-10 * kLoad * kSpan * kSpan)
+        << k;
+  }
+}
+
+// Limits: qL^2/12 of the clamped span, nothing in the hinged one.
+TEST(RotationalSprings, ReachTheClampAndTheHinge) {
+  EXPECT_NEAR(sprung_moment(1e12), kLoad * kSpan * kSpan / 12.0, 1e-7);
+  EXPECT_NEAR(sprung_moment(1e-6), 0.0, 1e-8);
+}
+
+// In beam3 too the spring is in equilibrium with the beam that starts at its hinge.
+TEST(RotationalSprings, BalanceBeamsOfThreeNodes) {
+  DeckWriter deck = sprung_span(kHinged3, kSection, {1.0, 2e3});
+  press(deck.stage(), kLoad);
+  const Kept kept(deck);
+  ASSERT_TRUE(kept.completed());
+  const std::vector<ElementEnd> beams = kept.ends(0), springs = kept.ends(1);
+  EXPECT_NEAR(springs[0].value[kBendingMoment], beams[0].value[kBendingMoment], 1e-9);
+  EXPECT_NEAR(beams[1].value[kBendingMoment] - beams[0].value[kBendingMoment], kLoad * kSpan * kSpan / 8.0,
+              1e-9);
+}
+
+// M_p at the ends; statics give the middle q L^2/8 - M_p.
+TEST(RotationalSprings, YieldAtTheirStrength) {
+  constexpr double kStrength = 5.0;  // the elastic moment is 11.8
+  DeckWriter deck = sprung_span(kHinged2, kPlasticLaw, {1.0, 1e5, 0.0, kStrength});
+  press(deck.stage(4), kLoad);
+  const Kept kept(deck);
+  ASSERT_TRUE(kept.completed());
+  EXPECT_NEAR(kept.ends(1)[0].value[kBendingMoment], -kStrength, 1e-10);
+  EXPECT_NEAR(kept.ends(1)[1].value[kBendingMoment], kStrength, 1e-10);
+  EXPECT_NEAR(kept.ends(0)[1].value[kBendingMoment], kLoad * kSpan * kSpan / 8.0 - kStrength, 1e-6);
+}
+
+// A joint that comes in the second stage has no part in the load of the first.
+TEST(RotationalSprings, StartWithoutMomentInTheirStage) {
+  DeckWriter deck = sprung_span(kHinged2, kSection, {1.0, 2e3});
+  press(deck.stage(), 3.0);
+  StageCards& second = deck.stage();
+  second.births = {2};
+  press(second, kLoad);
+  const Kept kept(deck);
+  ASSERT_TRUE(kept.completed());
+  EXPECT_NEAR(kept.ends(1)[0].value[kBendingMoment], -sprung_moment(2e3), 1e-9);
+}
+
+// A cantilever with a joint in its middle: the tip gets P b^2/k more.
+TEST(RotationalSprings, JoinTwoBeams) {
+  constexpr double kForce = 3.0, k = 500.0;
+  const auto tip = [&](bool sprung) {
+    DeckWriter deck(1);
+    for (int i = 0; i < 3; ++i) deck.node(i + 1, 2.0 * i, 0.0);
+    deck.material(1, kSection, {1e6, kEI, kGA});
+    deck.material(2, kSection, {1.0, k});
+    deck.group(1, kBeam2, 0, 1);
+    deck.group(2, sprung ? kHinged2 : kBeam2, 0, 1);
+    deck.element(1, 1, {1, 2});
+    deck.element(2, 2, {2, 3});
+    if (sprung) {
+      deck.group(3, kRotationalSpring, 0, 2);
+      deck.element(3, 3, {2, 2});
+    }
+    clamp(deck, 1);
+    deck.stage().load(3, 0.0, -kForce);
+    const Kept kept(deck);
+    EXPECT_TRUE(kept.completed());
+    return (*kept.result.ends().back().view().u)[2 * 2 + 1];
+  };
+  EXPECT_NEAR(tip(true) - tip(false), -kForce * 2.0 * 2.0 / k, 1e-12);
+}
+
+TEST(RotationalSprings, AreRejectedWhereTheyCanNotWork) {
+  DeckWriter plate = sprung_span(kHinged2, kPlateLaw, {1e6, 0.2, 0.5});
+  press(plate.stage(), kLoad);
+  EXPECT_NE(refusal(plate).find("S625"), std::string::npos) << refusal(plate);
+  DeckWriter free = sprung_span(kHinged2, kSection, {1.0, 1e3});
+  press(free.stage(), kLoad);
+  EXPECT_EQ(refusal(free).find("S62"), std::string::npos) << refusal(free);
+  free.fixities.pop_back();  // the rotation of node 3
+  EXPECT_NE(refusal(free).find("node 3 has no beam with rotation"), std::string::npos) << refusal(free);
 }
 
 TEST(StructureChecks, ReleasedEndsDontMeet) {

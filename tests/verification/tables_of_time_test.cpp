@@ -237,8 +237,9 @@ TEST(TablesOfTime, StepsByTheirErrorKeepTheStatedSum) {
     const WetColumn column(stage);
     const WholeRun done = complete(column.input);
     ASSERT_EQ(done.increments.size(), 4u);
-    const auto note = std::ranges::find_if(
-        done.warnings, [](const std::string& text) { return text.find("add up to at most ") != std::string::npos; });
+    const auto note = std::ranges::find_if(done.warnings, [](const std::string& text) {
+      return text.find("add up to at most ") != std::string::npos;
+    });
     ASSERT_NE(note, done.warnings.end());
     const std::string before = "add up to at most ";
     const double stated = std::stod(note->substr(note->find(before) + before.size()));

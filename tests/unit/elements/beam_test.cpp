@@ -11,6 +11,7 @@
 #include "sage/conformance/element_cases.hpp"
 #include "sage/conformance/law_driver.hpp"
 #include "sage/conformance/sample_laws.hpp"
+#include "sage/messages/error.hpp"
 
 namespace sage {
 namespace {
@@ -324,6 +325,22 @@ TEST(Spring, PropsACantilever) {
   const double prop = q * 1e4 / (8.0 * EI) / (1e3 / (3.0 * EI) + 1.0 / k);
   EXPECT_NEAR(frame.stress(2, 0)(0), -prop, 1e-4 * prop);  // GA = 1e9 for none
   EXPECT_NEAR(frame.u(2, 1), -prop / k, 1e-4 * prop / k);
+}
+
+// k for each unit of width; around the axis the whole circle.
+TEST(RotationalSpring, HasAMomentForEachRadian) {
+  const LawPtr section = law("section_elastic", {1.0, 50.0});
+  for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+    const auto element = entry("rotational_spring1").make(geometry, 0);
+    ElementRun run(*element, Eigen::Vector2d(2.0, 1.0), reference(section));
+    run.evaluate(Eigen::Vector4d(0.3, -0.2, 0.01, 0.03));
+    const double width = geometry == Geometry::axisymmetric ? 2.0 * kPi * 2.0 : 1.0;
+    EXPECT_NEAR(run.sigma1[3], 50.0 * 0.02, 1e-14);
+    EXPECT_LT((run.f - width * Eigen::Vector4d(0.0, 0.0, -1.0, 1.0)).norm(), 1e-13 * width);
+  }
+  const auto element = entry("rotational_spring1").make(Geometry::axisymmetric, 0);
+  std::vector<double> room(static_cast<std::size_t>(element->traits().geometry_size()));
+  EXPECT_THROW(element->geometry(Eigen::Vector2d(0.0, 1.0), room), ElementShapeError);
 }
 
 // Reversed, every element answers the same but for the sign of the bending moment.
