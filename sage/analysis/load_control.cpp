@@ -1,8 +1,8 @@
 #include "sage/analysis/load_control.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "sage/analysis/explain.hpp"
 #include "sage/analysis/step_iteration.hpp"
@@ -14,7 +14,7 @@ namespace {
 std::string control_name(const Model& model, const LoadControl& control) {
   const std::string axis = unknown_name(model, {control.node, 0, control.component});
   if (control.other < 0) return "displacement of " + axis;
-  return fmt::format("displacement of {} less that of node {}", axis, model.mesh.number[control.other]);
+  return "displacement of " + axis + " less that of node " + std::to_string(model.mesh.number[control.other]);
 }
 
 std::array<ControlTerm, 2> terms_of(const LoadControl& control) {
@@ -47,10 +47,9 @@ ControlledLoad::ControlledLoad(const RunParts& run, double to, Eigen::VectorXd& 
     return term.dof >= 0 && assembly_.equation_of(term.dof) >= 0;
   };
   if (std::ranges::none_of(terms_, is_free))
-    throw AnalysisError(
-        "S582", fmt::format("stage {}: the load is controlled by the {}, which is prescribed, or belongs "
-                            "to no active element",
-                            run.stage().number, control_name(run.model, control)));
+    throw AnalysisError("S582", "stage " + std::to_string(run.stage().number) +
+                                    ": the load is controlled by the " + control_name(run.model, control) +
+                                    ", which is prescribed, or belongs to no active element");
   goal_ = to * control.growth - (controlled_displacement(run) - run.state.path.control_start);
 }
 
@@ -82,12 +81,12 @@ bool drops_off(const RunParts& run, double share) {
 
 std::string explain_controlled(const RunParts& run, const StepReport& report, const NewtonStep& step) {
   const LoadControl& control = run.stage().control;
-  std::string text = fmt::format(
-      "stage {}, increment {} of {}: no equilibrium found after {} cuts of the step.\n"
-      "  the load is controlled by the {}: it has grown by {} of {}, at load factor {}\n",
-      report.stage + 1, report.increment, report.increments, report.cuts, control_name(run.model, control),
-      short_number(run.state.reached * control.growth), short_number(control.growth),
-      short_number(report.load_factor));
+  std::string text =
+      "stage " + std::to_string(report.stage + 1) + ", increment " + std::to_string(report.increment) + " of " +
+      std::to_string(report.increments) + ": no equilibrium found after " + std::to_string(report.cuts) +
+      " cuts of the step.\n  the load is controlled by the " + control_name(run.model, control) +
+      ": it has grown by " + short_number(run.state.reached * control.growth) + " of " +
+      short_number(control.growth) + ", at load factor " + short_number(report.load_factor) + "\n";
   if (!step.message.empty()) text += "  the stiffness matrix is singular (" + step.message + ")\n";
   return text +
          "  likely: a snap-back: load and displacement would have to decrease together here, while the failure "
