@@ -38,7 +38,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "control", true, "", "geometry solver total_nodes total_elements middle_nodes strain", ""},
     {"sage1", "node", true, "number x y", "step system ratio", ""},
     {"sage1", "fill", false, "first columns rows row_step", "column_step column_ratio row_ratio", ""},
-    {"sage1", "material", true, "number law", "unit_weight name k0", ""},
+    {"sage1", "material", true, "number law", "unit_weight name k0 saturated_unit_weight", ""},
     {"sage1", "parameters", false, "values", "", "material"},
     {"sage1", "group", true, "number element material", "formulation name overlay second_material", ""},
     {"sage1", "element", true, "number n1 n2", kElement, ""},

@@ -45,6 +45,12 @@ void lengthen_cards(Layout& layout) {
   for (int i = 9; i <= kWideNodes; ++i)
     nodes.push_back(field("n" + std::to_string(i), "node " + std::to_string(i), FieldKind::integer));
   lengthen(layout, "element", std::to_string(nodes.size()) + "I10", nodes);
+  FieldSpec saturated = field("saturated_unit_weight",
+                              "saturated unit weight, of solids below phreatic lines (water cards of kind 1); "
+                              "blank = the unit weight",
+                              FieldKind::real);
+  saturated.unit = "force/length^3";
+  lengthen(layout, "material", "F20.0", {saturated});
   lengthen(layout, "group", "I10",
            {field("second_material", "material number of the second law, of elements that have two",
                   FieldKind::integer)});

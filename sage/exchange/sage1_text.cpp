@@ -258,7 +258,10 @@ void Sage1Writer::materials() {
     integer(static_cast<long>(material.parameters.size()));
     real(material.unit_weight);
     name(material.name, 40);
-    if (material.saturated_unit_weight != 0.0) real(material.saturated_unit_weight);
+    if (material.saturated_unit_weight != 0.0) {
+      if (!wide_) throw TooWide{"of the saturated unit weight of a material"};
+      real(material.saturated_unit_weight);
+    }
     line();
     for (std::size_t i = 0; i < material.parameters.size(); ++i) {
       real(material.parameters[i]);

@@ -481,9 +481,9 @@ void bad_stages(Cases& c) {
                "pressure:16-20",
                {"steps of 2 from 2 do not meet the last, 5"}});
   c.push_back({"initial_kind_unknown",
-               b.with("initial", card({"1", "8"}, {"10."})),
+               b.with("initial", card({"1", "9"}, {"10."})),
                "initial:6-10",
-               {"initial stress kind 8 is unknown", "0 uniform"}});
+               {"initial stress kind 9 is unknown", "0 uniform"}});
   c.push_back({"initial_group_undefined",
                b.with("initial", card({"4", "0"}, {"10."})),
                "initial:1-5",
@@ -508,15 +508,15 @@ void bad_stages(Cases& c) {
                {"group 3 is born twice"}});
   c.push_back(
       {"report_kind_unknown",
-       b.with("report", card({"5", "1", "7", "9", "1", "1"}, {"1."})),
+       b.with("report", card({"6", "1", "7", "9", "1", "1"}, {"1."})),
        "report:1-5",
-       {"the kind of report can't be 5", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
+       {"the kind of report can't be 6", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
   // The card behind it looks like that of a point: the fault is the kind all the same.
   c.push_back(
       {"report_kind_unknown_before_a_point",
-       b.with("report", card({"5"})).behind("report", "point", card({}) + "        .5        .5middle"),
+       b.with("report", card({"6"})).behind("report", "point", card({}) + "        .5        .5middle"),
        "report:1-5",
-       {"the kind of report can't be 5", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
+       {"the kind of report can't be 6", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
   c.push_back({"point_behind_sums_over_nodes",
                b.with("report", card({"2", "", "7", "9"}))
                    .behind("report", "point", card({}) + "        .5        .5middle"),

@@ -130,7 +130,7 @@ class Binary(Parsed):
     def nodes(self):
         self.take("<u8", 4)
         self.take("<i4", 3)
-        count = self.take("<u8", 1)[0]
+        count = int(self.take("<u8", 1)[0])
         tags, places = self.take("<u8", count), self.take("<f8", 3 * count)
         self.places = dict(zip(tags.tolist(), places.reshape(-1, 3)))
 
@@ -139,7 +139,7 @@ class Binary(Parsed):
             dimension, _, kind = self.take("<i4", 3).tolist()
             self.types.add(kind)
             nodes = {1: 2, 8: 3, 15: 1, 2: 3, 3: 4, 9: 6, 16: 8, 10: 9}[kind]
-            rows = self.take("<u8", self.take("<u8", 1)[0] * (1 + nodes)).reshape(-1, 1 + nodes).tolist()
+            rows = self.take("<u8", int(self.take("<u8", 1)[0]) * (1 + nodes)).reshape(-1, 1 + nodes).tolist()
             if dimension < 2:
                 self.lines.update((tag, (kind, of)) for tag, *of in rows)
 
@@ -149,7 +149,7 @@ class Binary(Parsed):
         values = {}
         for _ in range(count):
             tag = self.take("<i4", 1)[0]
-            nodes = self.take("<i4", 1)[0] if kind == "ElementNodeData" else 1
+            nodes = int(self.take("<i4", 1)[0]) if kind == "ElementNodeData" else 1
             values[int(tag)] = self.take("<f8", nodes * numbers)
         self.views[name] = (kind, values, time)
 

@@ -149,7 +149,7 @@ TEST(History, CardsThatCannotBeAreRefusedInTheirPlace) {
   expect({"    1    4        1.    1.E200"}, ":21-30: error");
   expect({"    1    4        1.       NaN"}, ":21-30: error");
   expect({history_card(3.0), history_card(4.0)}, ":21-30: error: group 1: the card in line");
-  expect({"    1    8        1."}, "4 history of the law");
+  expect({"    1    9        1."}, "4 history of the law");
   expect({"    7    4        1.        3."}, "group 7");
 }
 

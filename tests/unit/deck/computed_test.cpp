@@ -537,7 +537,8 @@ fields = [{ name = "number" }, { name = "x" }, { name = "y" }, { name = "sistem"
   EXPECT_NE(text.find("  could be given too    step, system, ratio\n"), std::string::npos) << text;
   EXPECT_NE(text.find("counts\n  used by the layout    n\n  ignored               spare\n"), std::string::npos)
       << text;
-  EXPECT_NE(text.find("  material (needed)     number law; also unit_weight name k0\n"), std::string::npos)
+  EXPECT_NE(text.find("  material (needed)     number law; also unit_weight name k0 saturated_unit_weight\n"),
+            std::string::npos)
       << text;
 }
 
