@@ -130,6 +130,7 @@ class Sage1Writer {
   void list(const std::vector<int>& groups);
   void control(const LoadControl& control);
   void stage(const Stage& stage);
+  void actions(const Stage& stage);
   void write_list(const std::vector<int>& numbers);
   bool is_written(const Report& report) const;
   // Those of undrained groups are twins of others, with their numbers.
@@ -462,6 +463,14 @@ void Sage1Writer::stage(const Stage& stage) {
   }
   if (stage.is_controlled()) control(stage.control);
   line();
+  actions(stage);
+  list(stage.births);
+  list(stage.deaths);
+  for (const InitialStress& i : stage.initials) initial(i);
+}
+
+// Supports and loads.
+void Sage1Writer::actions(const Stage& stage) {
   for (const Fixity& f : stage.fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);
   for (const Exit& e : stage.exits) exit(e);
@@ -488,9 +497,6 @@ void Sage1Writer::stage(const Stage& stage) {
     for (double value : {load.normal[0], load.normal[1], load.shear[0], load.shear[1]}) real(value);
     end_with_table(load.history);
   }
-  list(stage.births);
-  list(stage.deaths);
-  for (const InitialStress& i : stage.initials) initial(i);
 }
 
 void Sage1Writer::point(const Report& report) {
