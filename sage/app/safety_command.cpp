@@ -105,10 +105,7 @@ MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue
   settings.pulse = task.pulse();
   safety::Options search = options.search;
   search.stage = options.stage - 1;
-  if (kh != 0.0) {
-    safety::add_earthquake(*result.model, search.stage, kh);
-    search.stage = -1;
-  }
+  if (kh != 0.0) search.stage = safety::add_earthquake(*result.model, search.stage, kh);
   with_umat_output(options.deck,
                    [&] { result.found = safety::find_safety(*result.model, catalogue, settings, search); });
   return result;
@@ -183,10 +180,13 @@ Json trial_json(const Model& model, const FactorTrial& trial) {
   return json;
 }
 
+Json json_or_null(std::optional<double> value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
 Json safety_json(const SafetyOptions& options, const Meshes& meshes) {
   const MeshResult& last = meshes.done.back();
   const Safety& found = last.found;
-  const auto number = [](std::optional<double> factor) { return factor ? Json(*factor) : Json(nullptr); };
   Json trials = Json::array(), table = Json::array();
   for (const FactorTrial& trial : found.trials) trials.push_back(trial_json(*last.model, trial));
   Json reduce = Json::array(), fails = Json::array();
@@ -202,12 +202,12 @@ Json safety_json(const SafetyOptions& options, const Meshes& meshes) {
   for (const MeshResult& mesh : meshes.done)
     table.push_back({{"elements", mesh.elements},
                      {"dofs", mesh.dofs},
-                     {"lower", number(mesh.found.lower)},
-                     {"upper", number(mesh.found.upper)},
+                     {"lower", json_or_null(mesh.found.lower)},
+                     {"upper", json_or_null(mesh.found.upper)},
                      {"options", mesh.options}});
   Json json = {{"deck", json_text(options.deck)},
-               {"lower", number(found.lower)},
-               {"upper", number(found.upper)},
+               {"lower", json_or_null(found.lower)},
+               {"upper", json_or_null(found.upper)},
                {"complete", found.complete()},
                {"incomplete", json_text(found.incomplete)},
                {"divided", json_list(found.reduced)},
@@ -279,17 +279,16 @@ int find_one(const SafetyOptions& options, const Catalogue& catalogue) {
 }
 
 Json critical_json(const SafetyOptions& options, const safety::CriticalKh& found) {
-  const auto number = [](std::optional<double> value) { return value ? Json(*value) : Json(nullptr); };
   Json trials = Json::array();
   for (const safety::KhTrial& trial : found.trials)
     trials.push_back({{"kh", trial.kh},
-                      {"lower", number(trial.lower)},
-                      {"upper", number(trial.upper)},
+                      {"lower", json_or_null(trial.lower)},
+                      {"upper", json_or_null(trial.upper)},
                       {"stands", trial.stands()},
                       {"falls", trial.falls()}});
-  return {{"deck", json_text(options.deck)}, {"direction", options.earthquake},
-          {"lower", number(found.lower)},    {"upper", number(found.upper)},
-          {"complete", found.complete()},    {"incomplete", json_text(found.incomplete)},
+  return {{"deck", json_text(options.deck)},    {"direction", options.earthquake},
+          {"lower", json_or_null(found.lower)}, {"upper", json_or_null(found.upper)},
+          {"complete", found.complete()},       {"incomplete", json_text(found.incomplete)},
           {"trials", std::move(trials)}};
 }
 
@@ -325,8 +324,10 @@ int find_kh(const SafetyOptions& options, const Catalogue& catalogue) {
 // One search per set of factors.
 int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
   const std::vector<PartialFactors>& sets = options.input.build.factors;
-  if (sets.size() < 2 && !options.earthquake.empty()) return find_kh(options, catalogue);
-  if (sets.size() < 2) return find_one(options, catalogue);
+  const auto find = [&](const SafetyOptions& one) {
+    return one.earthquake.empty() ? find_one(one, catalogue) : find_kh(one, catalogue);
+  };
+  if (sets.size() < 2) return find(options);
   if (answer() != nullptr) {
     say_error(options.deck, "--json holds one answer: give one set of --factors at a time", "S742");
     return kUsage;
@@ -335,7 +336,7 @@ int run_safety(const SafetyOptions& options, const Catalogue& catalogue) {
   for (const PartialFactors& set : sets) {
     SafetyOptions one = options;
     one.input.build.factors = {set};
-    worst = std::max(worst, one.earthquake.empty() ? find_one(one, catalogue) : find_kh(one, catalogue));
+    worst = std::max(worst, find(one));
     if (worst == kInterrupted) break;
   }
   return worst;

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "sage/safety/insert_stage.hpp"
 
 namespace sage::safety {
 
@@ -96,18 +99,19 @@ CriticalKh find_critical_kh(const std::function<Safety(double kh)>& find, double
   return search.conclude(false);
 }
 
-void add_earthquake(Model& model, int stage, double kh) {
-  const std::size_t last = stage < 0 ? model.stages.size() - 1 : static_cast<std::size_t>(stage);
+int add_earthquake(Model& model, int stage, double kh) {
+  const int last = chosen_stage(model, stage);
+  const Stage& before = model.stages[static_cast<std::size_t>(last)];
   Stage earthquake;
-  earthquake.number = model.stages[last].number + 1;
+  earthquake.number = before.number + 1;
   earthquake.title = "earthquake";
   earthquake.increments = kIncrements;
-  earthquake.max_iterations = model.stages[last].max_iterations;
-  earthquake.tolerance = model.stages[last].tolerance;
+  earthquake.max_iterations = before.max_iterations;
+  earthquake.tolerance = before.tolerance;
   earthquake.gravity = {kh, 0.0};
-  earthquake.where = model.stages[last].where;
-  model.stages.resize(last + 1);
-  model.stages.push_back(std::move(earthquake));
+  earthquake.strength_factor = before.strength_factor;  // its strengths are those of the stage before
+  earthquake.where = before.where;
+  return insert_behind(model, last, std::move(earthquake));
 }
 
 std::string to_text(const CriticalKh& found) {

@@ -30,8 +30,9 @@ struct CriticalKh {
 // find(kh): the factor of safety under an acceleration of that size, from 0 up.  tolerance: width of the bracket.
 CriticalKh find_critical_kh(const std::function<Safety(double kh)>& find, double tolerance);
 
-// Adds kh to the right (negative: left) to the loads of a stage (from 0; negative: the last), in a stage of its own behind it.
-void add_earthquake(Model& model, int stage, double kh);
+// Adds kh to the right (negative: left) to the loads of a stage (from 0; negative: the
+// last), in a stage of its own behind it.  Returns the index of that stage; the deck's later ones follow it.
+int add_earthquake(Model& model, int stage, double kh);
 
 std::string to_text(const CriticalKh& found);
 std::string to_csv(const CriticalKh& found, int digits);

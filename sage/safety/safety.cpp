@@ -10,6 +10,7 @@
 #include "sage/analysis/trials.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/law_table.hpp"
+#include "sage/safety/insert_stage.hpp"
 
 namespace sage::safety {
 
@@ -150,7 +151,6 @@ class Finder final : public Trials {
   void choose_materials();
   void keep_other_strengths();
   void insert_trial_stage();
-  void move_law_choices();
   Stage& trial_stage() { return model_.stages[safety_.stages]; }
   void set_factor(double factor);
   void prepare_stages();
@@ -257,35 +257,15 @@ void Finder::keep_other_strengths() {
 }
 
 void Finder::insert_trial_stage() {
-  // Stages with factors of the deck's own are analyses of their own: the first is as good as any.
-  const std::size_t whole = model_.stages[0].strength_factor > 0.0 ? 0 : model_.stages.size() - 1;
-  const std::size_t last = options_.stage < 0 ? whole : static_cast<std::size_t>(options_.stage);
+  const int last = chosen_stage(model_, options_.stage);
+  const Stage& before = model_.stages[static_cast<std::size_t>(last)];
   Stage trial;
-  trial.number = model_.stages[last].number + 1;
+  trial.number = before.number + 1;
   trial.title = "strength reduction";
   trial.max_iterations = options_.iterations;
   trial.tolerance = safety_.tolerance;
-  trial.where = model_.stages[last].where;
-  safety_.stages = static_cast<int>(last) + 1;
-  move_law_choices();
-  model_.stages.insert(model_.stages.begin() + safety_.stages, std::move(trial));
-  for (WaterCard& card : model_.water)  // those of later stages stay theirs
-    if (card.stage >= safety_.stages) ++card.stage;
-}
-
-// Laws of later stages stay theirs; bars whose force was held up to here go on with their law in the trial.
-void Finder::move_law_choices() {
-  const auto index = static_cast<std::size_t>(safety_.stages);
-  for (std::size_t g = 0; g < model_.groups.size(); ++g) {
-    const auto states_law = [&](const InitialStress& initial) {
-      return initial.group == static_cast<int>(g) &&
-             (is_about_law(initial.kind) || initial.kind == InitialKind::lock_off);
-    };
-    const bool own =
-        index < model_.stages.size() && std::ranges::any_of(model_.stages[index].initials, states_law);
-    for (LawChoice& choice : model_.groups[g].choices)
-      if (choice.stage > safety_.stages || (choice.stage == safety_.stages && own)) ++choice.stage;
-  }
+  trial.where = before.where;
+  safety_.stages = insert_behind(model_, last, std::move(trial));
 }
 
 void Finder::set_factor(double factor) {

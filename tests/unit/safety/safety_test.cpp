@@ -409,8 +409,9 @@ TEST(Safety, CriticalAccelerationOfABlockOnAPlane) {
   const CriticalKh found = find_critical_kh(
       [&](double kh) {
         Model model = bench.build(deck.text());
-        if (kh > 0.0) add_earthquake(model, -1, -kh);
-        Safety safety = find_safety(model, bench.catalogue(), bench.settings(), options);
+        Options of_trial = options;
+        if (kh > 0.0) of_trial.stage = add_earthquake(model, -1, -kh);
+        Safety safety = find_safety(model, bench.catalogue(), bench.settings(), of_trial);
         safety.mechanism.reset();
         return safety;
       },
@@ -419,6 +420,40 @@ TEST(Safety, CriticalAccelerationOfABlockOnAPlane) {
   EXPECT_LE(*found.lower, std::tan(b)) << to_text(found);
   EXPECT_GE(*found.upper, std::tan(b)) << to_text(found);
   EXPECT_NEAR(*found.trials.front().lower, std::tan(2.0 * b) / std::tan(b), 0.01) << "without an earthquake";
+}
+
+// Behind the chosen stage, and what the deck says of its later ones stays with them.
+TEST(Safety, AnEarthquakeLeavesWaterAndLawsWithTheirStages) {
+  Model model;
+  model.stages.resize(2);
+  model.stages[0].number = 1;
+  model.stages[1].number = 2;
+  model.groups.resize(1);
+  model.groups[0].choices.resize(2);
+  model.groups[0].choices[1].stage = 1;
+  model.stages[1].initials.resize(1);
+  model.stages[1].initials[0].kind = InitialKind::material;
+  model.water.resize(2);
+  model.water[1].stage = 1;
+  ASSERT_EQ(add_earthquake(model, 0, 0.1), 1);
+  ASSERT_EQ(model.stages.size(), 3u);
+  EXPECT_EQ(model.stages[1].gravity, Vector2(0.1, 0.0));
+  EXPECT_EQ(model.stages[2].number, 2);
+  EXPECT_EQ(model.water[0].stage, 0);
+  EXPECT_EQ(model.water[1].stage, 2);
+  EXPECT_EQ(model.groups[0].choices[0].stage, 0);
+  EXPECT_EQ(model.groups[0].choices[1].stage, 2);
+}
+
+// Stages with strengths divided by factors of the deck's own are analyses of their own: the first is shaken.
+TEST(Safety, AnEarthquakeFollowsTheFirstOfStatedFactors) {
+  Model model;
+  model.stages.resize(2);
+  model.stages[0].strength_factor = 1.2;
+  model.stages[1].strength_factor = 1.4;
+  ASSERT_EQ(add_earthquake(model, -1, 0.1), 1);
+  EXPECT_EQ(model.stages[1].strength_factor, 1.2);
+  EXPECT_EQ(model.stages[2].strength_factor, 1.4);
 }
 
 // Far below its limit of 5.17, and between factors of 1.656 and 1.8 without equilibrium in brackets of .002 until histories
