@@ -88,16 +88,21 @@ std::optional<std::vector<double>> numbers_of(const std::string& text) {
 
 constexpr std::size_t kColumnsOfText = 80;
 
+// The times of a table that has rows.
+bool ascends_from_zero(const TimeTable& table) {
+  const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
+  return !(table.front().first < 0.0) && std::ranges::adjacent_find(table, falls) == table.end();
+}
+
 // Of a displacement, a force or an edge load.  duration: of the stage of the card; 0 = it is on no card of a stage.
 void check_mechanical_table(Builder& b, const CardView& card, const TimeTable& table, bool legible,
                             double duration) {
-  const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
   const auto error = [&](const std::string& text) { b.error("S591", card.where("history"), text); };
   if (duration <= 0.0)
     error("a table of time belongs on a load, pressure or fixity card of a stage");
   else if (!legible)
     error("a table of time is pairs of a time and a factor, with blanks between, of 80 characters at most");
-  else if (table.front().first < 0.0 || std::ranges::adjacent_find(table, falls) != table.end())
+  else if (!ascends_from_zero(table))
     error("the times of a table count from the start of the stage and must ascend");
   else if (table.back().first > duration)
     error("the last time of the table, " + rounded_text(table.back().first, 6) +
@@ -114,7 +119,6 @@ TimeTable read_history_of_time(Builder& b, const CardView& card, int field, doub
   TimeTable table;
   for (std::size_t i = 0; numbers && i + 1 < numbers->size(); i += 2)
     table.emplace_back((*numbers)[i], (*numbers)[i + 1]);
-  const auto falls = [](const auto& one, const auto& next) { return !(one.first < next.first); };
   if (field == 0)
     check_mechanical_table(
         b, card, table, numbers && numbers->size() % 2 == 0 && !table.empty() && text.size() <= kColumnsOfText,
@@ -125,7 +129,7 @@ TimeTable read_history_of_time(Builder& b, const CardView& card, int field, doub
   else if (!numbers || numbers->size() % 2 != 0 || table.empty() || text.size() > kColumnsOfText)
     b.error("S579", card.where("history"),
             "a history is pairs of a time and a share, with blanks between, of 80 characters at most");
-  else if (table.front().first < 0.0 || std::ranges::adjacent_find(table, falls) != table.end())
+  else if (!ascends_from_zero(table))
     b.error("S579", card.where("history"),
             "the times of a history count from the start of the stage and must ascend");
   return table;

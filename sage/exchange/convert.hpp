@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sage/model/foreign_element.hpp"
 #include "sage/model/model.hpp"
+#include "sage/model/msh_numbers.hpp"
 
 namespace sage {
 

@@ -12,6 +12,7 @@
 #include "sage/exchange/foreign_mesh.hpp"
 #include "sage/exchange/msh_interfaces.hpp"
 #include "sage/model/foreign_element.hpp"
+#include "sage/model/msh_numbers.hpp"
 
 namespace sage {
 
@@ -168,41 +169,19 @@ Vector2 place_of(const Model& model, const Block& block) {
   return model.mesh.x.col(node);
 }
 
-// Numbers of a section: words of a line, or their bytes.
-class Numbers {
- public:
-  Numbers(std::string& to, MshForm form) : to_(&to), binary_(form == MshForm::binary) {}
+double without_minus_zero(double value) {
+  return value + 0.0;
+}
 
-  Numbers& operator<<(int value) { return add(value); }
-  Numbers& operator<<(std::size_t value) { return add(value); }
-  Numbers& operator<<(double value) { return add(value + 0.0); }  // no -0
-  void end_line() {
-    if (!binary_) to_->back() = '\n';
-  }
-  void end_section(std::string_view name) { *to_ += fmt::format("{}$End{}\n", binary_ ? "\n" : "", name); }
-
- private:
-  template <class Number>
-  Numbers& add(Number value) {
-    if (binary_)
-      to_->append(reinterpret_cast<const char*>(&value), sizeof value);
-    else
-      fmt::format_to(std::back_inserter(*to_), "{} ", value);
-    return *this;
-  }
-
-  std::string* to_;
-  bool binary_;
-};
-
-void add_entity(Numbers& out, const Model& model, const Block& block) {
+void add_entity(MshNumbers& out, const Model& model, const Block& block) {
   constexpr std::size_t kNamed = 1, kBounds = 0;  // one physical group each, whose number is the entity's
   out << block.tag;
   if (block.dimension == 0) {
     const Vector2 at = place_of(model, block);
-    out << at.x() << at.y() << 0.0 << kNamed << block.tag;
+    out << without_minus_zero(at.x()) << without_minus_zero(at.y()) << 0.0 << kNamed << block.tag;
   } else {
-    const Vector2 low = model.mesh.x.rowwise().minCoeff(), high = model.mesh.x.rowwise().maxCoeff();
+    const Vector2 low = model.mesh.x.rowwise().minCoeff().unaryExpr(&without_minus_zero);
+    const Vector2 high = model.mesh.x.rowwise().maxCoeff().unaryExpr(&without_minus_zero);
     out << low[0] << low[1] << 0.0 << high[0] << high[1] << 0.0 << kNamed << block.tag << kBounds;
   }
   out.end_line();
@@ -215,7 +194,7 @@ void add_entities(std::string& text, MshForm form, const Model& model, const std
     if (known.try_emplace({block.dimension, block.tag}, &block).second)
       of_dimension[block.dimension].push_back(&block);
   text += "$Entities\n";
-  Numbers out(text, form);
+  MshNumbers out(text, form);
   for (const auto& some : of_dimension) out << some.size();
   out << std::size_t{0};
   out.end_line();
@@ -291,7 +270,7 @@ void add_nodes(std::string& text, MshForm form, const Mesh& mesh) {
   const std::vector<int>& number = mesh.number;
   const auto count = number.size();
   text += "$Nodes\n";
-  Numbers out(text, form);
+  MshNumbers out(text, form);
   const int largest = number.empty() ? 0 : *std::ranges::max_element(number);
   out << std::size_t{1} << count << std::size_t(number.empty() ? 0 : number.front()) << std::size_t(largest);
   out.end_line();
@@ -302,7 +281,7 @@ void add_nodes(std::string& text, MshForm form, const Mesh& mesh) {
     out.end_line();
   }
   for (int i = 0; i < mesh.nodes(); ++i) {
-    out << mesh.x(0, i) << mesh.x(1, i) << 0.0;
+    out << without_minus_zero(mesh.x(0, i)) << without_minus_zero(mesh.x(1, i)) << 0.0;
     out.end_line();
   }
   out.end_section("Nodes");
@@ -313,7 +292,7 @@ void add_elements(std::string& text, MshForm form, const std::vector<Block>& blo
   const auto [lowest, largest] = std::ranges::minmax_element(numbers);
   const bool none = numbers.empty();
   text += "$Elements\n";
-  Numbers out(text, form);
+  MshNumbers out(text, form);
   out << blocks.size() << numbers.size() << std::size_t(none ? 0 : *lowest) << std::size_t(none ? 0 : *largest);
   out.end_line();
   for (const Block& block : blocks) {
@@ -339,7 +318,7 @@ MshMesh mesh_of(const Model& model, MshForm form, const std::vector<Block>& bloc
   if (form == MshForm::binary) {
     constexpr int kByteOrder = 1;
     text = "$MeshFormat\n4.1 1 8\n";
-    Numbers(text, form) << kByteOrder;
+    MshNumbers(text, form) << kByteOrder;
     text += "\n$EndMeshFormat\n";
   }
   text += "$PhysicalNames\n" + std::to_string(names.size()) + "\n";

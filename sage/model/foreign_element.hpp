@@ -10,9 +10,6 @@
 
 namespace sage {
 
-// How the sections of a MSH file hold their numbers: as text, or as bytes in the order of this machine.
-enum class MshForm { text, binary };
-
 // Local nodes in that program's order; the corners where it has no such element.
 template <class Type>
 std::vector<int> foreign_nodes(const ElementEntry& entry, const ForeignElement<Type>& element) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "sage/model/foreign_element.hpp"
+#include "sage/model/msh_numbers.hpp"
 #include "sage/record/state_time.hpp"
 #include "sage/record/vtk_data.hpp"
 
@@ -29,29 +30,18 @@ class View {
   // kind: "NodeData".  numbers: per row.
   View(std::string& out, MshForm form, std::string_view kind, const std::string& name, const Step& step,
        int numbers, std::size_t rows)
-      : out_(&out), kind_(kind), binary_(form == MshForm::binary) {
+      : numbers_(out, form), kind_(kind) {
     fmt::format_to(std::back_inserter(out), "${}\n1\n\"{}\"\n1\n{}\n3\n{}\n{}\n{}\n", kind, name, step.time,
                    step.index, numbers, rows);
   }
-  void add(int number) { put(number); }
-  void add(double value) { put(value); }
-  void end_row() {
-    if (!binary_) out_->back() = '\n';
-  }
-  void close() { fmt::format_to(std::back_inserter(*out_), "{}$End{}\n", binary_ ? "\n" : "", kind_); }
+  void add(int number) { numbers_ << number; }
+  void add(double value) { numbers_ << value; }
+  void end_row() { numbers_.end_line(); }
+  void close() { numbers_.end_section(kind_); }
 
  private:
-  template <class Number>
-  void put(Number number) {
-    if (binary_)
-      out_->append(reinterpret_cast<const char*>(&number), sizeof number);
-    else
-      fmt::format_to(std::back_inserter(*out_), "{} ", number);
-  }
-
-  std::string* out_;
+  MshNumbers numbers_;
   std::string_view kind_;
-  bool binary_;
 };
 
 std::string view_name(const FieldEntry& field, const std::string& name, const UnitSystem& units) {

@@ -10,7 +10,7 @@
 // has it.
 #pragma once
 
-#include "sage/model/foreign_element.hpp"
+#include "sage/model/msh_numbers.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 
