@@ -32,6 +32,8 @@ ElementEntry tri15_entry();
 ElementEntry interface4_entry();
 ElementEntry interface6_entry();
 ElementEntry interface6p4_entry();
+ElementEntry contact4_entry();
+ElementEntry contact5_entry();
 ElementEntry flow_quad4_entry();
 ElementEntry flow_quad8_entry();
 ElementEntry flow_quad9_entry();

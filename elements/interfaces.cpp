@@ -1,6 +1,7 @@
 // Catalogue entries of the interfaces.
 #include <utility>
 
+#include "elements/contact.hpp"
 #include "elements/coupled_interface.hpp"
 #include "elements/entries.hpp"
 #include "elements/interface.hpp"
@@ -46,7 +47,38 @@ ElementEntry with_line(ElementEntry entry) {
   return entry;
 }
 
+// An edge, then the line that it may touch.  A shape of its own: what pairs nodes of interfaces leaves it alone.
+template <class Line>
+ElementEntry contact_entry(std::string name, std::string_view full_name, std::string summary) {
+  ElementEntry entry{.name = std::move(name), .summary = std::move(summary)};
+  entry.kind = ElementKind::interface;
+  entry.shape = ParentShape::line;
+  entry.nodes = entry.card_nodes = entry.corners = Line::nodes + 2;  // no node of a card is made
+  entry.law_size = 2;
+  for (const double xi : Line::node_xi) entry.parent_nodes.push_back({xi, 0.0});
+  entry.parent_nodes.push_back({1.0, 0.0});
+  entry.parent_nodes.push_back({-1.0, 0.0});
+  static const ForeignElement<int> kLines[]{{3, {0, 1}}, {21, {0, 1, 2}}};
+  entry.vtk = kLines[Line::nodes - 2];
+  const auto make = [full_name](Geometry geometry) -> std::unique_ptr<Element> {
+    if (geometry == Geometry::plane_strain) return std::make_unique<Contact<Line, PlaneStrain>>(full_name);
+    return std::make_unique<Contact<Line, Axisymmetric>>(full_name);
+  };
+  return element_entry(std::move(entry),
+                       {{{1, "Gauss", "Gauss points of the moved edge", Line::nodes}, make, make}});
+}
+
 }  // namespace
+
+ElementEntry contact4_entry() {
+  return contact_entry<Line2>("contact4", "contact4 Gauss",
+                              "large strain: edge of two nodes that may touch a rigid line of two nodes");
+}
+
+ElementEntry contact5_entry() {
+  return contact_entry<Line3>("contact5", "contact5 Gauss",
+                              "large strain: edge of three nodes that may touch a rigid line of two nodes");
+}
 
 ElementEntry interface4_entry() {
   return element_entry(

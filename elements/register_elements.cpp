@@ -42,6 +42,8 @@ void register_elements(Catalogue& catalogue) {
   catalogue.elements.add(9, quad81_entry());
   catalogue.elements.add(11, interface4_entry());
   catalogue.elements.add(12, interface6_entry());
+  catalogue.elements.add(13, contact4_entry());
+  catalogue.elements.add(14, contact5_entry());
   catalogue.elements.add(41, flow_quad4_entry());
   catalogue.elements.add(42, flow_quad8_entry());
   catalogue.elements.add(43, flow_tri3_entry());

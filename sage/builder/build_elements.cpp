@@ -112,7 +112,9 @@ int chosen_element(const Builder& b, int deck_code) {
   if (takes_cards_of(*wanted, *deck_entry)) return b.options.element;
   // Quadratic solids need quadratic interfaces beside them.
   const int beside = b.catalogue.elements.code_of(wanted->side_interface);
-  return deck_entry->interface() && deck_entry->only_corners() && beside != 0 ? beside : deck_code;
+  return deck_entry->interface() && deck_entry->square() && deck_entry->only_corners() && beside != 0
+             ? beside
+             : deck_code;
 }
 
 int chosen_formulation(const Builder& b, const ElementEntry& entry, int deck_code, bool replaced) {

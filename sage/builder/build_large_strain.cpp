@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "sage/builder/builder.hpp"
+#include "sage/core/contact.hpp"
 #include "sage/core/elastic_shear.hpp"
 
 namespace sage::builder {
@@ -51,6 +52,7 @@ std::string objection(const Model& model, const Group& group) {
   if (material.undrained) return "stands in undrained ground";
   if (!group.choices.empty() || !material.variants.empty())
     return "changes from point to point or from stage to stage";
+  if (is_contact(*group.entry)) return {};
   const LawRef law = material.law_ref();
   const auto* const solid = std::get_if<const SolidLaw*>(&law);
   if (solid != nullptr && dynamic_cast<const ElasticShear*>(*solid) != nullptr) return {};
@@ -84,9 +86,21 @@ void check_parts(Builder& b) {
                               "have led them; expected a stage whose displacements go on");
 }
 
+// At small strain bodies do not know where they are.
+void refuse_contact(Builder& b) {
+  for (const Group& group : b.model.groups)
+    if (is_contact(*group.entry))
+      b.error(
+          "S556", group.where,
+          "group " + std::to_string(group.number) + " is of " + group.entry->name +
+              ", contact of a moved edge, which needs large strain; expected strain = \"large\" (a 1 in the "
+              "field strain of the control card), or an interface");
+}
+
 }  // namespace
 
 void take_large_strain(Builder& b) {
+  if (!b.model.large_strain) return refuse_contact(b);
   check_parts(b);
   for (Group& group : b.model.groups) {
     const int before = b.problems.errors();

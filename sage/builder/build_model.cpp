@@ -376,7 +376,7 @@ Model build_model(const Deck& as_read, const Catalogue& catalogue, const BuildOp
   if (b.problems.errors() == 0) builder::take_stored_heads(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   builder::build_laws(b);
-  if (b.model.large_strain) builder::take_large_strain(b);
+  builder::take_large_strain(b);
   if (b.problems.errors() > 0) throw refusal(deck, b.problems);
   take_factors(b);
   builder::check_model(b);

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "sage/builder/builder.hpp"
+#include "sage/core/contact.hpp"
 
 namespace sage::builder {
 
@@ -150,11 +151,12 @@ class SideCheck {
 
 void check_interfaces(Builder& b) {
   bool any = false;
-  for (const Group& group : b.model.groups) any = any || group.interface();
+  const auto has_pairs = [](const Group& group) { return group.interface() && !is_contact(*group.entry); };
+  for (const Group& group : b.model.groups) any = any || has_pairs(group);
   if (!any) return;
   SideCheck sides(b);
   for (const Group& group : b.model.groups)
-    if (group.interface()) sides.check(group);
+    if (has_pairs(group)) sides.check(group);
 }
 
 }  // namespace sage::builder

@@ -185,7 +185,8 @@ void check_curved_joints(Builder& b) {
   constexpr int kCurve = 3;                       // turns that make one
   const Model& model = b.model;
   for (const Group& group : model.groups) {
-    if (!group.interface() || group.node_count() != 4 || !may_slip(model, group)) continue;
+    if (!group.interface() || !group.entry->square() || group.node_count() != 4 || !may_slip(model, group))
+      continue;
     std::map<int, int> from;  // elements by their first node
     for (int e = 0; e < group.elements(); ++e) from.emplace(group.nodes_of(e)[0], e);
     const auto way = [&](int e) -> Vector2 {

@@ -1,6 +1,7 @@
 // Refinement and grading that BuildOptions ask for, and what they mean for the rest of the model.
 #include <algorithm>
 
+#include "sage/core/contact.hpp"
 #include "sage/mesh/subdivide.hpp"
 #include "sage/model/activity.hpp"
 
@@ -157,10 +158,26 @@ bool square_corners(Work& b) {
   return square_at(b, corners);
 }
 
+// An edge that is halved needs two elements of contact with the same line.
+bool refuse_contact(Work& b) {
+  for (const Group& group : b.model.groups) {
+    if (!is_contact(*group.entry)) continue;
+    b.error(
+        "S557", group.where,
+        "group " + std::to_string(group.number) + " is of " + group.entry->name +
+            ": elements of contact can't be refined, graded or coarsened; expected a deck with the finer mesh");
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void refine_as_asked(Work& b) {
   const MeshOptions& options = b.meshing;
+  const bool changes =
+      options.coarsen || options.refine > 0 || !options.gradings.empty() || options.refine_graded > 0;
+  if (changes && refuse_contact(b)) return;
   const bool coarser = options.coarsen && coarsen(b);
   if (!options.coarsen && options.refine <= 0 && options.gradings.empty() && options.refine_graded <= 0) return;
   if (has_unusable_shapes(b.model)) return;

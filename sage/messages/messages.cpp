@@ -988,7 +988,9 @@ constexpr MessageEntry kMessages[] = {
      "path. With a dilation angle closer to friction it depends less."},
     {"S551", "an element for small strain alone",
      "Large strain computes every element at its present position. Solid elements of few nodes without "
-     "enhanced strain can do that. Interfaces, structures, elements of flow and coupled elements can't.",
+     "enhanced strain and elements of contact can do that. Interfaces, structures, elements of flow and "
+     "coupled "
+     "elements can't.",
      "Use one of the elements or formulations that the message lists, or small strain."},
     {"S552", "a law for small strain alone",
      "Large strain gives a law the Kirchhoff stress and increments of the elastic logarithmic strain. The law "
@@ -1010,7 +1012,19 @@ constexpr MessageEntry kMessages[] = {
      "that happens often. For example, the free side of a specimen rolls onto a rough platen and folds the "
      "corner. The message names the element, and the corner that keeps the smallest share of its initial area.",
      "If the steps were large, use smaller increments. A mesh with a cut or rounded corner, or with larger "
-     "elements at the corner, goes further. A real fold needs contact, which the model does not have."},
+     "elements at the corner, goes further. A real fold needs elements of contact, which let the side roll "
+     "onto "
+     "the platen."},
+    {"S556", "contact needs large strain",
+     "Elements of contact find the gap between an edge and a rigid line from their present positions. At small "
+     "strain the bodies keep the shape and the place of the mesh.",
+     "Turn large strain on, or use an interface of zero thickness."},
+    {"S557", "a mesh with contact can't be refined",
+     "An element of contact joins one edge and the two nodes of a rigid line. Refinement would have to make "
+     "two "
+     "of it with the same line.",
+     "Write a deck with the finer mesh. Leave out options that refine, grade or coarsen the mesh, and "
+     "--converge."},
     {"S570", "bounds need plane strain",
      "sagefe bounds solves the problems of limit analysis in plane strain. Its upper field has no hoop strain "
      "and its lower field no hoop stress.",

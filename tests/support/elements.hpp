@@ -28,8 +28,11 @@ inline std::vector<ElementCase> element_cases() {
 inline std::vector<ElementCase> solid_cases() {
   return of_kind(ElementKind::solid, element_cases());
 }
+// Those with pairs of nodes, which contact has none of.
 inline std::vector<ElementCase> interface_cases() {
-  return of_kind(ElementKind::interface, element_cases());
+  std::vector<ElementCase> cases = of_kind(ElementKind::interface, element_cases());
+  std::erase_if(cases, [](const ElementCase& one) { return !one.entry->square(); });
+  return cases;
 }
 // A nonlinear law for any element; refuses components beyond `limit`.
 struct AnySmoothLaw {

@@ -437,5 +437,72 @@ TEST(LargeStrainModels, ElementsAndLawsThatCannotAreRejectedByName) {
   expect_complaint(bars.input, "S551", "bar2");
 }
 
+// The bottom of a cylinder and a rigid line at that height, held at its ends and pushed up by `push`.
+Grid above_a_line(const std::string& element, double height, double push, double radius = 5.0) {
+  Grid grid = cylinder(element, element == "quad8" ? "reduced" : "b-bar", elastic(1.0, 0.3));
+  ModelInput& input = grid.input;
+  input.supports = {{.nodes = grid.row(grid.rows()), .y = FixityCode::fixed},
+                    {.nodes = grid.column(0), .x = FixityCode::fixed}};
+  input.nodes.emplace_back(0.0, height);
+  input.nodes.emplace_back(radius, height);
+  const int last = static_cast<int>(input.nodes.size());
+  input.materials.push_back(
+      {.law = "goodman", .parameters = {{"shear_stiffness", 0.0}, {"normal_stiffness", 50.0}}});
+  GroupInput contact{.element = element == "quad8" ? "contact5" : "contact4", .material = 2, .elements = {}};
+  const int step = grid.step();
+  for (int i = 0; i < grid.columns(); i += step) {
+    std::vector<int> nodes{grid.numbers.at({i, 0}), grid.numbers.at({i + step, 0})};
+    if (step == 2) nodes.push_back(grid.numbers.at({i + 1, 0}));
+    nodes.push_back(last - 1);
+    nodes.push_back(last);
+    contact.elements.push_back(nodes);
+  }
+  input.groups.push_back(contact);
+  StageInput stage{.increments = 4, .tolerance = 1e-12};
+  stage.supports = {
+      {.nodes = {last - 1, last}, .x = FixityCode::fixed, .y = FixityCode::fixed, .y_value = push}};
+  input.stages = {stage};
+  return grid;
+}
+
+// A bar of Hencky's law of the length 2 l has the force -A0 E ln(l)/l on the area A0 l^(-2 nu).  The line comes to it
+// through a gap of 0.1, and then enters it by the pressure over the stiffness.
+TEST(LargeStrainModels, ABarOnALineHasThePenaltysCompliance) {
+  const double l = 0.9, area = kPi * std::pow(l, -0.6), force = -kPi * std::log(l) / l;
+  for (const char* element : {"quad8", "quad4"}) {
+    const Grid grid = above_a_line(element, -0.1, 0.1 + 2.0 * (1.0 - l) + force / area / 50.0);
+    const WholeRun whole = run(grid.input);
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    const int last = static_cast<int>(grid.input.nodes.size());
+    EXPECT_NEAR(whole.reaction(whole.last(), {last - 1, last}, 1), force, 1e-10 * force) << element;
+    EXPECT_NEAR(whole.reaction(whole.last(), grid.row(grid.rows()), 1), -force, 1e-10 * force) << element;
+  }
+}
+
+// The nodes of the line may be at places of other nodes: no body is cut there.
+TEST(LargeStrainModels, NodesOfALineOfContactMayCoincideWithOthers) {
+  const Grid grid = above_a_line("quad8", 0.0, 0.01, 1.0);
+  const Model model = build_model(grid.input, everything());
+  for (const Diagnostic& one : model.diagnostics.list())
+    EXPECT_EQ(one.message.find("at one place"), std::string::npos) << one.message;
+}
+
+TEST(LargeStrainModels, ContactNeedsLargeStrainAndItsOwnMesh) {
+  Grid grid = above_a_line("quad8", -0.1, 0.2);
+  grid.input.large_strain = false;
+  expect_complaint(grid.input, "S556", "contact5, contact of a moved edge, which needs large strain");
+  grid.input.large_strain = true;
+  std::string text;
+  try {
+    BuildOptions options;
+    options.refine = 1;
+    build_model(grid.input, everything(), options);
+  } catch (const InputError& error) {
+    text = error.what();
+  }
+  EXPECT_NE(text.find("S557"), std::string::npos) << text;
+  EXPECT_NE(text.find("can't be refined"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace sage::test

@@ -21,7 +21,7 @@ struct Joint {
 std::vector<Joint> joints(const Record& record) {
   std::vector<Joint> list;
   for (const auto& [code, entry] : record.bench().catalogue().elements.entries())
-    if (entry.interface() && !entry.has_pores())
+    if (entry.interface() && entry.square() && !entry.has_pores())
       for (const Formulation& f : entry.formulations) list.push_back({code, f.code, entry.name + " " + f.name});
   return list;
 }
