@@ -17,28 +17,36 @@ constexpr double kBeyond = 1e-6;
 
 }  // namespace
 
-// A point of the edge and the line, at some places of the nodes.
+// A point of the edge and the line, displaced by u.  What changes is computed of displacements, so that small ones keep their
+// digits beside a penalty.
 template <class Line, class Kinematics>
 struct Contact<Line, Kinematics>::Place {
   Vector<kEdge> N, dN;
   Vector2 t, n, ds;
-  double length = 0.0, along = 0.0, gap = 0.0, share = 0.0;  // share: along / length
+  double length = 0.0, slid = 0.0, gap = 0.0,
+         share = 0.0;  // slid: along the line since the mesh; share: of its length
   double J = 0.0, r = 0.0, weight = 0.0;
 
-  Place(const Coordinates& x, const LinePoint& at) : N(Line::N(at.xi)), dN(Line::dN(at.xi)) {
-    const auto edge = x.template leftCols<kEdge>();
-    const Vector2 start = x.col(kEdge), line = x.col(kEdge + 1) - start, point = edge.lazyProduct(N);
-    length = line.norm();
-    t = line / length;
-    n = {-t.y(), t.x()};
-    along = t.dot(point - start);
-    gap = n.dot(point - start);
-    share = along / length;
-    ds = edge.lazyProduct(dN);
+  Place(const Coordinates& mesh, const Coordinates& u, const LinePoint& at)
+      : N(Line::N(at.xi)), dN(Line::dN(at.xi)) {
+    const Vector2 line0 = mesh.col(kEdge + 1) - mesh.col(kEdge), w = u.col(kEdge + 1) - u.col(kEdge);
+    const double length0 = line0.norm();
+    length = (line0 + w).norm();
+    const Vector2 t0 = line0 / length0, n0 = left_of(t0);
+    const Vector2 turn = (w - t0 * ((2.0 * line0 + w).dot(w) / (length + length0))) / length;
+    t = t0 + turn;
+    n = left_of(t);
+    const Vector2 d0 = mesh.template leftCols<kEdge>().lazyProduct(N) - mesh.col(kEdge);
+    const Vector2 moved = u.template leftCols<kEdge>().lazyProduct(N) - u.col(kEdge), d = d0 + moved;
+    slid = t0.dot(moved) + turn.dot(d);
+    gap = n0.dot(d0) + (n0.dot(moved) + left_of(turn).dot(d));
+    share = (t0.dot(d0) + slid) / length;
+    ds = (mesh + u).template leftCols<kEdge>().lazyProduct(dN);
     J = ds.norm();
-    r = point.x();
+    r = mesh.col(kEdge).x() + u.col(kEdge).x() + d.x();
     weight = at.w * J * Kinematics::measure(r);
   }
+  static Vector2 left_of(const Vector2& direction) { return {-direction.y(), direction.x()}; }
   bool touches() const { return gap <= 0.0 && share >= 0.0 && share <= 1.0; }
 
   // Derivatives by the displacements, of a direction d: d . (point - start of the line), and d . (end - start).
@@ -115,7 +123,7 @@ void Contact<Line, Kinematics>::geometry(const NodeCoordinates& x, std::span<dou
     throw ElementShapeError("contact: the edge or the line has no length");
   double* block = out.data();
   for (const LinePoint& at : GaussLine<kPoints>::table) {
-    const Place place(Coordinates(x), at);
+    const Place place(Coordinates(x), Coordinates::Zero(), at);
     if (!(place.J > 0.0)) throw ElementShapeError("contact: the middle node folds the edge");
     if (place.gap < -kBeyond * size && place.share >= 0.0 && place.share <= 1.0)
       throw ElementShapeError(
@@ -137,13 +145,13 @@ Vector2 Contact<Line, Kinematics>::position(const NodeCoordinates& x, int point)
 
 template <class Line, class Kinematics>
 Outcome Contact<Line, Kinematics>::evaluate(const ElementIn& in, ElementOut& out) const {
-  const Coordinates before = Coordinates::Map(in.x) + Coordinates::Map(in.u0);
+  const Coordinates mesh = Coordinates::Map(in.x), before = Coordinates::Map(in.u0);
   const Coordinates now = before + Coordinates::Map(in.du);
   Sums sums;
   Outcome outcome = Outcome::ok;
   for (std::size_t p = 0; p < kPoints; ++p) {
     const LinePoint& at = GaussLine<kPoints>::table[p];
-    add_point(p, in, out, Place(before, at), Place(now, at), sums, outcome);
+    add_point(p, in, out, Place(mesh, before, at), Place(mesh, now, at), sums, outcome);
     if (outcome != Outcome::ok) return outcome;
   }
   Dofs::Map(out.f) = sums.f;
@@ -170,7 +178,7 @@ void Contact<Line, Kinematics>::add_point(std::size_t p, const ElementIn& in, El
   PointIn<2> point;
   point.sigma0 = held ? Vector2(Vector2::Map(in.sigma0 + 2 * p)) : Vector2(Vector2::Zero());
   point.eps0 = held ? Vector2(in.eps0[2 * p], before.gap) : Vector2(Vector2::Zero());
-  point.deps = held ? Vector2(now.along - before.along, now.gap - before.gap) : Vector2(0.0, now.gap);
+  point.deps = held ? Vector2(now.slid - before.slid, now.gap - before.gap) : Vector2(0.0, now.gap);
   point.h0 = {in.h0 + p * history.size(), history.size()};
   point.context = in.contexts != nullptr ? in.contexts + p : nullptr;
   PointOut<2> answer;

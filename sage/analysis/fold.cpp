@@ -1,8 +1,10 @@
 #include "sage/analysis/fold.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "sage/analysis/explain.hpp"
+#include "sage/core/contact.hpp"
 
 namespace sage {
 
@@ -44,6 +46,10 @@ Corner worst_corner(const Model& model, const Assembly& assembly, const Eigen::V
   return worst;
 }
 
+bool has_contact(const Model& model) {
+  return std::ranges::any_of(model.groups, [](const Group& group) { return is_contact(*group.entry); });
+}
+
 }  // namespace
 
 std::string fold_lines(const Model& model, const Assembly& assembly, const Eigen::VectorXd& u,
@@ -58,9 +64,9 @@ std::string fold_lines(const Model& model, const Assembly& assembly, const Eigen
          ") turns inside out: its corner at node " + std::to_string(model.mesh.number[found.node]) +
          ", now at (" + short_number(place.x()) + "; " + short_number(place.y()) + "), has " +
          short_number(100.0 * now.share) + " % of its area in the mesh at the last equilibrium" +
-         (tried.share <= 0.0 ? " and is beyond zero at the last attempt" : "") +
-         "\n  what helps: a free side that rolls onto a rough platen needs contact, which the model lacks; a "
-         "larger element at that corner goes further, and smaller increments do where the steps were large\n";
+         (tried.share <= 0.0 ? " and is beyond zero at the last attempt" : "") + "\n  what helps: " +
+         (has_contact(model) ? "" : "a free side that rolls onto a rough platen needs elements of contact; ") +
+         "a larger element at that corner goes further, and smaller increments do where the steps were large\n";
 }
 
 }  // namespace sage

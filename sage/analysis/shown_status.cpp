@@ -1,10 +1,12 @@
 #include "sage/analysis/shown_status.hpp"
 
+#include "sage/core/contact.hpp"
 #include "sage/math/rounding.hpp"
 
 namespace sage {
 
 PointStatus shown_opening(const Mesh& mesh, const GroupData& data, std::size_t point) {
+  if (is_contact(*data.group->entry)) return PointStatus::open;  // its law hasn't seen the gap
   constexpr double kRounding = rounding::kResult;
   const PointStates& state = data.state.committed;
   const auto history = history_of(data.law);

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sage/builder/pore_mesh.hpp"
+#include "sage/builder/lattice_mesh.hpp"
 #include "sage/core/point_driver.hpp"
 #include "sage/model/dof_map.hpp"
 #include "solvers/choose_solver.hpp"
@@ -19,7 +19,7 @@ constexpr double kWaterWeight = 9.81;
 const UnitSystem kUnits{"m", "kN", "kPa", 101.325, kWaterWeight};
 constexpr double kShrink = 20.0;  // largest element over the smallest, along each side
 
-PoreMesh mesh_of(const ClosedSpecimen& specimen) {
+LatticeMesh mesh_of(const ClosedSpecimen& specimen) {
   const int rows = std::max(1, static_cast<int>(std::lround(specimen.columns * specimen.slenderness)));
   const auto lines = [](double length, int intervals) {
     return graded(0.0, length, intervals, std::pow(kShrink, -1.0 / intervals));
@@ -114,14 +114,14 @@ class Gauge final : public Observer {
   const std::vector<SpecimenPart>& parts_;
   std::vector<SpecimenPart> starts_;
   int first_stage_ = 0;
-  PoreMesh mesh_;
+  LatticeMesh mesh_;
   DofMap dofs_;
   std::vector<SpecimenState>& states_;
   double first_force_ = 0.0;
 };
 
 // The membrane and the platen hold the first stress.
-StageInput cell_stage(const ClosedSpecimen& specimen, const PoreMesh& mesh) {
+StageInput cell_stage(const ClosedSpecimen& specimen, const LatticeMesh& mesh) {
   StageInput stage{.title = "cell pressure"};
   stage.pressures = {{.elements = mesh.right_elements(),
                       .edge = mesh.right_edge(),
@@ -156,7 +156,7 @@ StageInput stage_of(const SpecimenPart& part, const std::vector<int>& platen, do
 }  // namespace
 
 ModelInput specimen_input(const ClosedSpecimen& specimen, const std::vector<SpecimenPart>& parts) {
-  const PoreMesh mesh = mesh_of(specimen);
+  const LatticeMesh mesh = mesh_of(specimen);
   ModelInput input;
   input.name = input.title = "closed specimen between rough platens";
   input.geometry = Geometry::axisymmetric;

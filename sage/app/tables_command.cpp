@@ -11,6 +11,7 @@
 #include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/app/large_tables.hpp"
 #include "sage/app/progress.hpp"
 #include "sage/app/run_deck.hpp"
 #include "sage/app/screen.hpp"
@@ -29,22 +30,8 @@ std::filesystem::path shipped_decks() {
   return is_there ? installed : std::filesystem::path(SAGE_CASES_DIR);
 }
 
-namespace {
-
-struct TableOptions {
-  std::filesystem::path cases = shipped_decks() / "chapter7";
-  std::filesystem::path folder = "out";
-  bool pinned = false, water = false;
-};
-
-// A line of tables.csv.
-struct ChapterEntry {
-  std::string table, row, column, deck;
-  int stage = 0, increment = 0;
-  double chapter = 0.0, converged = 0.0;  // converged: 0 = not known
-};
-
-std::vector<ChapterEntry> read_entries(const std::filesystem::path& path) {
+std::vector<ChapterEntry> read_chapter_entries(const std::filesystem::path& cases) {
+  const std::filesystem::path path = cases / "tables.csv";
   std::ifstream in(path);
   if (!in)
     throw InputError("S101", {path.string(), 0, 0, 0}, "the list of table entries can't be read (see --cases)");
@@ -63,8 +50,16 @@ std::vector<ChapterEntry> read_entries(const std::filesystem::path& path) {
   return entries;
 }
 
+namespace {
+
+struct TableOptions {
+  std::filesystem::path cases = shipped_decks() / "chapter7";
+  std::filesystem::path folder = "out";
+  bool pinned = false, water = false, large = false;
+};
+
 std::vector<ChapterEntry> chosen_entries(const TableOptions& options) {
-  std::vector<ChapterEntry> entries = read_entries(options.cases / "tables.csv");
+  std::vector<ChapterEntry> entries = read_chapter_entries(options.cases);
   if (options.pinned)
     std::erase_if(entries, [](const ChapterEntry& entry) { return !entry.column.starts_with("pinned"); });
   return entries;
@@ -205,14 +200,23 @@ Command tables_command(CLI::App& parser, const Catalogue& catalogue) {
                     "folder with tables.csv and the decks (default: the program's own, see sagefe list decks)");
   parser.add_option("-o,--output", options->folder, "folder for results (default: out)");
   CLI::Option* pinned = parser.add_flag("--pinned", options->pinned, "only the columns with pinned ends");
+  CLI::Option* const water = parser
+                                 .add_flag("--water", options->water,
+                                           "the same tables for closed specimens whose water is free to move "
+                                           "(docs/theory/closed_specimen.md)")
+                                 ->excludes(pinned);
   parser
-      .add_flag(
-          "--water", options->water,
-          "the same tables for closed specimens whose water is free to move (docs/theory/closed_specimen.md)")
-      ->excludes(pinned);
+      .add_flag("--large", options->large,
+                "the same tables under large strain, up to 20 % (docs/theory/large_specimens.md)")
+      ->excludes(pinned)
+      ->excludes(water);
   return [options, &catalogue] {
-    if (!options->water) return print_tables(*options, catalogue);
-    print_water_tables({}, options->folder, catalogue);
+    if (options->water)
+      print_water_tables({}, options->folder, catalogue);
+    else if (options->large)
+      print_large_tables({}, read_chapter_entries(options->cases), options->folder, catalogue);
+    else
+      return print_tables(*options, catalogue);
     return static_cast<int>(kOk);
   };
 }

@@ -13,7 +13,7 @@
 #include "sage/app/exit_codes.hpp"
 #include "sage/app/progress.hpp"
 #include "sage/app/screen.hpp"
-#include "sage/model_file/model_file.hpp"
+#include "sage/app/study_model.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
@@ -314,14 +314,6 @@ void write_csv(const std::vector<std::vector<WaterRow>>& specimens, const std::f
   out.finish();
 }
 
-void write_model(const ClosedSpecimen& specimen, const std::vector<SpecimenPart>& parts,
-                 const std::filesystem::path& path, const Catalogue& catalogue) {
-  Model model = build_model(specimen_input(specimen, parts), catalogue);
-  OutFile out(path);
-  out.text() = model_file_text(model, catalogue, model.diagnostics);
-  out.finish();
-}
-
 Json row_json(const WaterRow& r) {
   return {{"law", r.law},
           {"test", r.test},
@@ -342,8 +334,9 @@ Json row_json(const WaterRow& r) {
 std::vector<WaterRow> elastic_study(const WaterStudy& study, double slenderness, double nu,
                                     const std::filesystem::path& folder, const Catalogue& catalogue,
                                     Task& task) {
-  write_model(elastic_specimen(slenderness, nu, study.elastic), elastic_tests(study.elastic.steps).at_once,
-              folder / fmt::format("closed_nu{:g}_ld{:g}.sage.toml", nu, slenderness), catalogue);
+  write_study_model(specimen_input(elastic_specimen(slenderness, nu, study.elastic),
+                                   elastic_tests(study.elastic.steps).at_once),
+                    folder / fmt::format("closed_nu{:g}_ld{:g}.sage.toml", nu, slenderness), catalogue);
   return with_errors(study.elastic, [&](const Fineness& fine) {
     return elastic_rows(slenderness, nu, fine, catalogue, task);
   });
@@ -352,8 +345,9 @@ std::vector<WaterRow> elastic_study(const WaterStudy& study, double slenderness,
 // ends: tests that ended early, with their reasons.
 std::vector<WaterRow> clay_study(const WaterStudy& study, double ocr, const std::filesystem::path& folder,
                                  const Catalogue& catalogue, Task& task, std::vector<std::string>& ends) {
-  write_model(clay_specimen(ocr, study.clay), {{kClayStrain, kClayRates.back(), 30 * study.clay.steps, 1.0}},
-              folder / fmt::format("closed_clay_ocr{:g}.sage.toml", ocr), catalogue);
+  write_study_model(specimen_input(clay_specimen(ocr, study.clay),
+                                   {{kClayStrain, kClayRates.back(), 30 * study.clay.steps, 1.0}}),
+                    folder / fmt::format("closed_clay_ocr{:g}.sage.toml", ocr), catalogue);
   std::vector<WaterRow> rows;
   for (const double rate : kClayRates) {
     std::string reason;

@@ -86,6 +86,31 @@ void check_parts(Builder& b) {
                               "have led them; expected a stage whose displacements go on");
 }
 
+bool has_stress(const std::vector<InitialStress>& initials) {
+  return std::ranges::any_of(initials, [](const InitialStress& one) { return states_stress(one.kind); });
+}
+
+bool moves_supports(const Stage& stage) {
+  return std::ranges::any_of(stage.fixities,
+                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
+}
+
+// An initial stress is balanced at first by forces that do not turn, which the stage lets go.
+void warn_of_first_pressures(Builder& b) {
+  for (std::size_t s = 0; s < b.model.stages.size(); ++s) {
+    const Stage& stage = b.model.stages[s];
+    const bool begins = (s == 0 && has_stress(b.model.initials)) || has_stress(stage.initials);
+    if (!begins || stage.pressures.empty() || !moves_supports(stage)) continue;
+    b.warning(
+        "S558", stage.where,
+        "stage " + std::to_string(stage.number) +
+            " puts up the pressures that balance an initial stress, and moves supports: until its end a part "
+            "of "
+            "the initial stress is borne by forces that do not follow the edges; expected the pressures in a "
+            "stage of their own, and the motion behind it");
+  }
+}
+
 // At small strain bodies do not know where they are.
 void refuse_contact(Builder& b) {
   for (const Group& group : b.model.groups)
@@ -108,6 +133,7 @@ void take_large_strain(Builder& b) {
     if (b.problems.errors() == before) check_law(b, group);
   }
   if (b.problems.errors() > 0) return;
+  warn_of_first_pressures(b);
   b.note(
       "S554", b.deck.one("control").where("strain"),
       "large strain: stresses are Cauchy stresses (force over present area), strains are logarithmic strains "

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "sage/builder/builder.hpp"
+#include "sage/core/contact.hpp"
 #include "sage/core/law_remark.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
@@ -204,7 +205,7 @@ void warn_materials(Builder& b) {
   for (const Group& group : b.model.groups) {
     const Material& material = b.model.material_of(group);
     const std::string words = std::visit([](const auto* law) { return law->caution(); }, material.law_ref());
-    if (words.empty()) continue;
+    if (words.empty() || is_contact(*group.entry)) continue;  // contact without friction is often wanted
     const bool interface = group.interface();
     b.warning("S331", group.where,
               (interface ? "interface set " : "group ") + std::to_string(group.number) + ", material " +

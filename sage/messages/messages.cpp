@@ -1025,6 +1025,13 @@ constexpr MessageEntry kMessages[] = {
      "of it with the same line.",
      "Write a deck with the finer mesh. Leave out options that refine, grade or coarsen the mesh, and "
      "--converge."},
+    {"S558", "pressures of an initial stress in a stage that moves",
+     "The forces of an initial stress are let go over its first stage while the stage's pressures grow. Under "
+     "large "
+     "strain the pressures follow their edges, and those forces do not. If supports move in the same stage, "
+     "the "
+     "numbers before its end are not those of a body under its pressure, nor is the path of a plastic law.",
+     "Put the pressures into a first stage without motion. Move the supports in the next one."},
     {"S570", "bounds need plane strain",
      "sagefe bounds solves the problems of limit analysis in plane strain. Its upper field has no hoop strain "
      "and its lower field no hoop stress.",

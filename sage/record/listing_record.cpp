@@ -30,7 +30,9 @@ bool holds(const NodesRow& row) {
 void triaxial_rows(std::string& text, const Model& model, const std::vector<TriaxialRow>& rows) {
   const std::string& stress = model.units.stress;
   fmt::format_to(
-      to(text), "   measured: force on the report's nodes / area.  correct: the law with frictionless ends.\n");
+      to(text),
+      "   measured: force on the report's nodes / {}area.  correct: the law with frictionless ends.\n",
+      model.large_strain ? "first " : "");
   fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>15}{:>15}{:>15}{:>15}{:>15}{:>10}\n", "stage", "incr",
                  "strain", "force", "meas. deviator", "corr. deviator", "meas. axial", "corr. axial", "ratio");
   fmt::format_to(to(text), "   {:>5}{:>6}{:>12}{:>15}{:>15}{:>15}{:>15}{:>15}{:>10}\n", "", "", "-",

@@ -79,7 +79,10 @@ std::string remarks(const Model& model, std::size_t index) {
         "{1}, {2}, {3}; forces {4}\n"
         "# correct: one point of the law, frictionless ends; ratio = measured / correct deviator\n{5}",
         report.stage + 1, u.length, u.force, u.stress, per,
-        model.large_strain ? "# large strain: both are nominal stresses, force over the first area\n" : "");
+        model.large_strain ? "# large strain: nominal deviators, by the first area; *_corrected by that of a "
+                             "cylinder of the same "
+                             "length with the volume of the correct test\n"
+                           : "");
   if (report.kind == ReportKind::nodes)
     return fmt::format(
         "# node report: mean displacement since the start of stage {}, sum of the forces that loads and "
@@ -131,18 +134,24 @@ struct Reports::NodeSums {
   // Mean over the deck's own nodes, so that it keeps its meaning in finer meshes.
   double displacement[2] = {0, 0};
   double force[2] = {0, 0};  // sum of internal forces, less the weight
+  double extent = 0.0;       // of the nodes where they are now: pi r_max^2, or the width in plane strain
 };
 
 std::vector<ReportColumn> report_columns(const Model& model, const Report& report) {
   const UnitSystem& u = model.units;
-  if (report.kind == ReportKind::triaxial)
-    return {{"axial_strain", "-"},
-            {"force", u.force},
-            {"measured_deviator", u.stress},
-            {"correct_deviator", u.stress, true},
-            {"measured_axial", u.stress},
-            {"correct_axial", u.stress, true},
-            {"ratio", "-", true}};
+  if (report.kind == ReportKind::triaxial) {
+    std::vector<ReportColumn> columns{{"axial_strain", "-"},
+                                      {"force", u.force},
+                                      {"measured_deviator", u.stress},
+                                      {"correct_deviator", u.stress, true},
+                                      {"measured_axial", u.stress},
+                                      {"correct_axial", u.stress, true},
+                                      {"ratio", "-", true}};
+    if (model.large_strain)
+      columns.insert(columns.end(),
+                     {{"measured_corrected", u.stress, true}, {"correct_corrected", u.stress, true}});
+    return columns;
+  }
   if (report.kind == ReportKind::nodes) {
     std::vector<ReportColumn> columns{{"ux", u.length}, {"uy", u.length}, {"fx", u.force}, {"fy", u.force}};
     if (model.has_pores())
@@ -288,9 +297,29 @@ double CorrectTest::deviator_at(double axial_strain, double duration) {
     return kUnknown;
   }
   axial_strain_ = axial_strain;
-  const double nominal = large_strain_ ? driver_->sigma()[1] / (1.0 - axial_strain) : driver_->sigma()[1];
-  return outward(nominal) - outward(start_[1]);
+  if (!large_strain_) return outward(driver_->sigma()[1]) - outward(start_[1]);
+  // Kirchhoff stress over the volume ratio is Cauchy stress.
+  return outward(driver_->sigma()[1] / (1.0 - axial_strain) - start_[1] * area_ratio());
 }
+
+double CorrectTest::area_ratio() const {
+  if (!large_strain_) return 1.0;
+  return driver_ ? std::exp(driver_->eps().head<3>().sum()) / (1.0 - axial_strain_) : kUnknown;
+}
+
+namespace {
+
+double extent_of(const Model& model, const Report& report, const Solution& solution) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const int node : report.nodes) {
+    const double x = model.mesh.x(0, node) + (*solution.u)[DofMap::displacement(node, 0)];
+    least = std::min(least, x);
+    most = std::max(most, x);
+  }
+  return model.geometry == Geometry::axisymmetric ? kPi * most * most : most - least;
+}
+
+}  // namespace
 
 // weight: at the start and the end of the stage, of which load_factor has passed.
 Reports::NodeSums Reports::sum_nodes(const Model& model, const Report& report, const Solution& solution,
@@ -307,6 +336,7 @@ Reports::NodeSums Reports::sum_nodes(const Model& model, const Report& report, c
     }
   }
   for (double& d : sums.displacement) d /= std::max(own, 1);
+  if (model.large_strain) sums.extent = extent_of(model, report, solution);
   return sums;
 }
 
@@ -367,6 +397,7 @@ void Reports::on_stage_start(const Model& model, int stage, const Solution& solu
     const NodeSums sums = sum_nodes(model, report, solution, series.weight, 0.0);
     std::copy(sums.displacement, sums.displacement + 2, series.start_displacement);
     series.start_force = -sums.force[1];
+    series.start_extent = sums.extent;
     if (report.kind == ReportKind::triaxial) {
       series.specimen = start_of_specimen(model, report, solution);
       if (model.large_strain && solution.u->cwiseAbs().maxCoeff() > 1e-9 * report.height)
@@ -465,7 +496,9 @@ void Reports::add_triaxial(Series& series, std::size_t index, const StepReport& 
   r.increment = step.increment;
   r.axial_strain = -(sums.displacement[1] - series.start_displacement[1]) / report.height;
   r.force = -sums.force[1];
-  r.measured_deviator = (r.force - series.start_force) / series.area;
+  const bool grows = model_->large_strain && series.start_extent > 0.0;
+  const double growth = grows ? sums.extent / series.start_extent : 1.0;
+  r.measured_deviator = (r.force - series.start_force * growth) / series.area;
   const double before =
       step.started_at >= 0.0 ? step.started_at : static_cast<double>(step.increment - 1) / step.increments;
   r.duration = (step.load_factor - before) * model_->stages[step.stage].duration;
@@ -474,6 +507,9 @@ void Reports::add_triaxial(Series& series, std::size_t index, const StepReport& 
   r.correct_axial = report.cell_pressure + r.correct_deviator;
   r.ratio = r.correct_deviator != 0.0 ? r.measured_deviator / r.correct_deviator : kUnknown;
   if (!std::isfinite(r.ratio)) r.ratio = kUnknown;  // of a correct deviator that is next to nothing
+  const double area_ratio = series.correct ? series.correct->area_ratio() : kUnknown;
+  r.measured_corrected = r.measured_deviator / area_ratio;
+  r.correct_corrected = r.correct_deviator / area_ratio;
   r.held = -(1.0 - step.load_factor) * series.released[1];
   note_blank(series, r);
   series.triaxial.push_back(r);
@@ -564,8 +600,11 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
   const Series& series = series_[index];
   if (row < series.triaxial.size()) {
     const TriaxialRow& r = series.triaxial[row];
-    return {r.axial_strain,  r.force, r.measured_deviator, r.correct_deviator, r.measured_axial,
-            r.correct_axial, r.ratio};
+    std::vector<double> values{
+        r.axial_strain,  r.force, r.measured_deviator, r.correct_deviator, r.measured_axial,
+        r.correct_axial, r.ratio};
+    if (model_->large_strain) values.insert(values.end(), {r.measured_corrected, r.correct_corrected});
+    return values;
   }
   if (row < series.nodes.size()) {
     const NodesRow& r = series.nodes[row];
@@ -699,6 +738,7 @@ void Reports::exchange(Archive& archive) {
     archive(series.begun);
     archive(series.start_displacement);
     archive(series.start_force);
+    archive(series.start_extent);
     archive(series.weight);
     archive(series.last_load_factor);
     archive(series.released);

@@ -17,9 +17,12 @@ namespace sage {
 //   force              F = - sum over the report's nodes of the internal force in y (full circle, or unit
 //   thickness) axial_strain       - (mean u_y - its value at the start of the report's stage) / height
 //   measured_deviator  (F - F at the start of the stage) / area
+//                      (large strain: F at the start grows as the area of the nodes does, which the cell pressure follows)
 //   correct_deviator   of one point of the law under the same axial strain with frictionless ends: both lateral
 //                      stresses stay at the cell pressure (plane strain: sigma_xx stays and eps_zz = 0)
 //   *_axial            cell pressure + deviator
+//   *_corrected        under large strain: deviators by the area of a cylinder (or strip) that stays one, with the
+//                      volume of the correct test; the others are nominal, by the first area
 //   ratio              measured_deviator / correct_deviator
 //   held               part of the force that neither loads nor supports put there: forces that are let go over
 //                      the stage (a release, an excavation, an initial stress out of balance) and stand in part
@@ -29,6 +32,7 @@ struct TriaxialRow {
   double measured_deviator = 0.0, correct_deviator = 0.0;
   double measured_axial = 0.0, correct_axial = 0.0;
   double ratio = 0.0;
+  double measured_corrected = 0.0, correct_corrected = 0.0;
   double held = 0.0;
   double duration = 1.0;  // of the increment, for laws that depend on time
 };
@@ -100,12 +104,14 @@ SpecimenStart start_of_specimen(const Model& model, const Report& report, const 
 // The frictionless test: axial strain is given, the lateral stress stays at the cell pressure.
 class CorrectTest {
  public:
-  // large_strain: the axial stress is the nominal one (force over first area), the cell pressure acts on the present side.
+  // large_strain: the deviator is the nominal one (force over first area), the cell pressure acts on the present side.
   CorrectTest(const SolidLaw& law, Geometry geometry, double cell_pressure, const SpecimenStart& start = {},
               bool large_strain = false);
   // Growth of the axial stress (compression +) at an axial strain (compression +) since the start, that much time after
   // the call before; NaN from where no state is found on.
   double deviator_at(double axial_strain, double duration = 1.0);
+  // Of the last call: the present area over the first; 1 under small strain.
+  double area_ratio() const;
   // Why no state was found; empty while there is one.
   const std::string& failure() const { return failure_; }
 
@@ -165,7 +171,8 @@ class Reports final : public Output {
     OutFile file;
     bool begun = false;
     double start_displacement[2] = {0, 0}, start_force = 0.0, area = 0.0;
-    double weight[2][2] = {};  // of the nodes, at the start and the end of the stage; x, y
+    double start_extent = 0.0;  // NodeSums::extent, under large strain
+    double weight[2][2] = {};   // of the nodes, at the start and the end of the stage; x, y
     double released[2] = {0,
                           0};  // forces at the start of the stage that are let go over it; 0 = none to speak of
     bool release_noted = false;  // in the file

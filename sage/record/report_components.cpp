@@ -15,9 +15,13 @@ namespace sage {
 namespace {
 
 std::vector<std::string> columns_of(const Model& model, const Report& report) {
-  if (report.kind == ReportKind::triaxial)
-    return {"ratio",          "measured_deviator", "axial_strain", "force", "correct_deviator",
-            "measured_axial", "correct_axial"};
+  if (report.kind == ReportKind::triaxial) {
+    std::vector<std::string> names{"ratio",        "measured_deviator", "axial_strain",
+                                   "force",        "correct_deviator",  "measured_axial",
+                                   "correct_axial"};
+    if (model.large_strain) names.insert(names.end(), {"measured_corrected", "correct_corrected"});
+    return names;
+  }
   if (report.kind == ReportKind::nodes) return {"ux", "uy", "fx", "fy"};
   std::vector<std::string> names;
   for (const ReportColumn& column : report_columns(model, report)) names.push_back(column.name);
@@ -50,8 +54,9 @@ int deck_nodes(const Model& model, const Report& report) {
 void add_triaxial(const Model& model, const Report& report, std::size_t i, const std::vector<TriaxialRow>& rows,
                   std::vector<ReportComponent>& all) {
   const TriaxialRow& r = rows.back();
-  const double values[] = {r.ratio,          r.measured_deviator, r.axial_strain, r.force, r.correct_deviator,
-                           r.measured_axial, r.correct_axial};
+  const double values[] = {r.ratio,         r.measured_deviator,  r.axial_strain,
+                           r.force,         r.correct_deviator,   r.measured_axial,
+                           r.correct_axial, r.measured_corrected, r.correct_corrected};
   const std::vector<std::string> columns = columns_of(model, report);
   for (std::size_t k = 0; k < columns.size(); ++k)
     all.push_back({name_of(i, columns[k]), values[k], std::abs(values[k]), false});

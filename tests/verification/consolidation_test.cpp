@@ -43,7 +43,7 @@ double pressure(const WholeRun& run, int number) {
 
 // A column of height 1 and width 1, E' = 1, nu' = 0, k / gamma_w = 1: c = 1.  Loaded by 1 at its top.
 struct Column {
-  PoreMesh mesh;
+  LatticeMesh mesh;
   ModelInput input;
 
   explicit Column(std::vector<double> y, const std::string& element = "quad8p4", double nu = 0.0,
@@ -345,7 +345,7 @@ TEST(Consolidation, AnInterfaceIsTightOrOpen) {
 
 // A strip load on a block that drains through its top, with compressible water or not.
 struct Block2d {
-  PoreMesh mesh;
+  LatticeMesh mesh;
   ModelInput input;
 
   explicit Block2d(const std::string& element, Geometry geometry = Geometry::plane_strain, double bulk = 0.0)

@@ -9,6 +9,7 @@
 #include "sage/builder/model_input.hpp"
 #include "sage/exchange/convert.hpp"
 #include "sage/model/fingerprint.hpp"
+#include "sage/record/report.hpp"
 #include "solvers/choose_solver.hpp"
 #include "solvers/register_solvers.hpp"
 #include "tests/studies/scenes/scenes.hpp"
@@ -155,6 +156,84 @@ TEST(LargeStrainModels, SandInACellThatFollowsItsSide) {
       EXPECT_NEAR(whole.stress[0](0, p), -100.0, 1e-6 * 300.0) << law;
     }
     EXPECT_LT(whole.out_of_balance, 1e-9) << law;
+  }
+}
+
+// A platen above the cylinder that bears what comes on top of the pressure on its end, without friction; the nodes of its line.
+std::vector<int> add_line_above(Grid& grid) {
+  ModelInput& input = grid.input;
+  input.nodes.emplace_back(4.0, 2.0);
+  input.nodes.emplace_back(0.0, 2.0);
+  const int last = static_cast<int>(input.nodes.size());
+  input.materials.push_back(
+      {.law = "goodman", .parameters = {{"shear_stiffness", 0.0}, {"normal_stiffness", 1e8}}});
+  GroupInput contact{.element = "contact5", .material = 2, .elements = {}};
+  for (int i = 0; i < grid.columns(); i += 2)
+    contact.elements.push_back({grid.numbers.at({i, grid.rows()}), grid.numbers.at({i + 2, grid.rows()}),
+                                grid.numbers.at({i + 1, grid.rows()}), last - 1, last});
+  input.groups.push_back(contact);
+  input.supports.push_back({.nodes = {last - 1, last}, .x = FixityCode::fixed, .y = FixityCode::fixed});
+  return {last - 1, last};
+}
+
+// Sand without friction at its ends in a cell: a report on nodes that widen with the specimen, which bear the cell pressure,
+// and on a platen that bears only what comes on top of it, while that pressure acts on the end too.
+TEST(LargeStrainModels, ReportsOfSpecimensHaveNominalAndCorrectedStresses) {
+  for (const bool on_platen : {false, true}) {
+    Grid grid = cylinder("quad8", "full",
+                         {.law = "mohr_coulomb",
+                          .parameters = {{"youngs_modulus", 5000.0},
+                                         {"poissons_ratio", 0.3},
+                                         {"cohesion", 0.0},
+                                         {"friction_angle", 30.0}}});
+    grid.input.initials = {{1, InitialKind::uniform, {100.0, 100.0, 100.0, 0.0}}};
+    StageInput cell{.tolerance = 1e-11}, press{.increments = 8, .tolerance = 1e-11};
+    cell.pressures = {{.elements = {2, 4}, .edge = 2, .normal1 = 100.0, .normal2 = 100.0}};
+    std::vector<int> moved = grid.row(grid.rows());
+    if (on_platen) {
+      cell.pressures.push_back({.elements = {3, 4}, .edge = 3, .normal1 = 100.0, .normal2 = 100.0});
+      moved = add_line_above(grid);
+    } else {
+      grid.input.supports.push_back({.nodes = moved, .y = FixityCode::fixed});
+    }
+    press.supports = {pushed(moved, -0.4)};
+    grid.input.stages = {cell, press};
+    grid.input.reports = {{.kind = ReportKind::triaxial,
+                           .nodes = moved,
+                           .group = 1,
+                           .stage = 2,
+                           .height = 2.0,
+                           .area = kPi,
+                           .cell_pressure = 100.0}};
+    Reports reports;
+    Observer* observers[] = {&reports};
+    const Model model = build_model(grid.input, everything());
+    ASSERT_EQ(bench().run(model, observers).status, RunStatus::completed);
+    ASSERT_EQ(reports.triaxial(0).size(), 8u);
+    const TriaxialRow& last = reports.triaxial(0).back();
+    EXPECT_NEAR(last.axial_strain, 0.2, 1e-12);
+    EXPECT_NEAR(last.measured_corrected, 200.0, 1e-4 * 200.0)
+        << on_platen;  // q of phi = 30; the platen's penalty
+    EXPECT_NEAR(last.correct_corrected, 200.0, 1e-6 * 200.0) << on_platen;
+    EXPECT_NEAR(last.ratio, 1.0, 1e-4) << on_platen;
+    // Nominal: on an area that has grown, at nearly constant volume, by 1 / (1 - .2).
+    EXPECT_NEAR(last.measured_deviator, 250.0, 0.02 * 250.0) << on_platen;
+  }
+}
+
+// Forces of an initial stress don't follow the edges: while they are let go, pressures that grow can't stand in for them.
+TEST(LargeStrainModels, PressuresOfAnInitialStressInAStageThatMovesAreWarnedOf) {
+  for (const bool apart : {false, true}) {
+    Grid grid = cylinder("quad8", "reduced", elastic(1000.0, 0.3));
+    grid.input.initials = {{1, InitialKind::uniform, {100.0, 100.0, 100.0, 0.0}}};
+    StageInput cell, press;
+    cell.pressures = {{.elements = {2, 4}, .edge = 2, .normal1 = 100.0, .normal2 = 100.0}};
+    press.supports = {pushed(grid.row(grid.rows()), -0.4)};
+    if (!apart) press.pressures = cell.pressures;
+    grid.input.stages = apart ? std::vector{cell, press} : std::vector{press};
+    const Model model = build_model(grid.input, everything());
+    const auto& list = model.diagnostics.list();
+    EXPECT_EQ(std::ranges::count(list, Code("S558"), &Diagnostic::code), apart ? 0 : 1);
   }
 }
 

@@ -47,7 +47,7 @@ enum class Driven { pressure, forces, displacement };
 
 // A column of height 2 and width 1 without flow, nu = 0: it is compressed evenly in both geometries.
 struct DryColumn {
-  PoreMesh mesh{.x = graded(0.0, 1.0, 1), .y = graded(0.0, 2.0, 3), .element = "quad8p4"};
+  LatticeMesh mesh{.x = graded(0.0, 1.0, 1), .y = graded(0.0, 2.0, 3), .element = "quad8p4"};
   ModelInput input;
 
   explicit DryColumn(Geometry geometry) : input(pore_input(mesh, kModulus, 0.0, 1.0, geometry)) {
@@ -185,7 +185,7 @@ double olson(double t) {
 }
 
 struct WetColumn {
-  PoreMesh mesh{.x = graded(0.0, 1.0, 1), .y = graded(0.0, 1.0, 64), .element = "quad8p4"};
+  LatticeMesh mesh{.x = graded(0.0, 1.0, 1), .y = graded(0.0, 1.0, 64), .element = "quad8p4"};
   ModelInput input = pore_input(mesh, 1.0, 0.0, 1.0);
 
   explicit WetColumn(StageInput ramp) {

@@ -4,7 +4,7 @@
 
 namespace sage::scenes {
 
-ModelInput pore_input(const PoreMesh& mesh, double E, double nu, double k, Geometry geometry) {
+ModelInput pore_input(const LatticeMesh& mesh, double E, double nu, double k, Geometry geometry) {
   ModelInput input;
   input.geometry = geometry;
   input.units = {"m", "kN", "kPa", 101.325, 1.0};

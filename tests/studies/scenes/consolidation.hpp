@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "sage/builder/pore_mesh.hpp"
+#include "sage/builder/lattice_mesh.hpp"
 
 namespace sage::scenes {
 
 // Elastic soil of modulus E' and ratio nu', permeability k over a unit weight of water of 1.
-ModelInput pore_input(const PoreMesh& mesh, double E, double nu, double k,
+ModelInput pore_input(const LatticeMesh& mesh, double E, double nu, double k,
                       Geometry geometry = Geometry::plane_strain);
 
 SupportInput held(std::vector<int> nodes, bool x, bool y);

@@ -24,7 +24,7 @@ struct OneStep {
   double modulus() const { return E * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)); }
 
   ModelInput input() const {
-    const PoreMesh mesh{.x = {0.0, 0.125}, .y = graded(0.0, 1.0, kElements), .element = element};
+    const LatticeMesh mesh{.x = {0.0, 0.125}, .y = graded(0.0, 1.0, kElements), .element = element};
     ModelInput input = pore_input(mesh, E, nu, k_below);
     if (bulk > 0.0) input.materials[1].parameters["water_bulk"] = bulk;
     if (k_above != k_below) {
@@ -71,7 +71,7 @@ struct OneStep {
   // Largest error of the pressures at the corners of the left side, over the largest pressure.
   double error(const Ran& ran) const {
     if (!ran.completed()) return kUnknown;
-    const PoreMesh mesh{.x = {0.0, 0.125}, .y = graded(0.0, 1.0, kElements), .element = element};
+    const LatticeMesh mesh{.x = {0.0, 0.125}, .y = graded(0.0, 1.0, kElements), .element = element};
     const Eigen::VectorXd p = exact();
     const DofMap map(*ran.run->model);
     double worst = 0.0;

@@ -33,14 +33,14 @@ void march(ModelInput& input, double time, int steps) {
 }
 
 // A pressure of 1 on the upper side, from x = 0 on, or on the right side; the water is shut in.
-StageInput press_top(const PoreMesh& mesh, std::size_t elements) {
+StageInput press_top(const LatticeMesh& mesh, std::size_t elements) {
   StageInput stage = shut_in();
   std::vector<int> under = mesh.upper_elements();
   under.resize(std::min(elements, under.size()));
   stage.pressures = {{.elements = under, .edge = mesh.upper_edge(), .normal1 = 1.0, .normal2 = 1.0}};
   return stage;
 }
-StageInput press_right(const PoreMesh& mesh) {
+StageInput press_right(const LatticeMesh& mesh) {
   StageInput stage = shut_in();
   stage.pressures = {
       {.elements = mesh.right_elements(), .edge = mesh.right_edge(), .normal1 = 1.0, .normal2 = 1.0}};
@@ -87,7 +87,7 @@ void drained_column(Record& record, const char* element, int drains) {
       terzaghi([](double M) { return 2.0 / M * std::sin(0.5 * M) * std::exp(-M * M * kT); });
   MeshErrors degree, pressure;
   for (const int n : {32, 64, 128}) {
-    const PoreMesh mesh{.x = {0.0, 1.0}, .y = graded(0.0, drains, n * drains), .element = element};
+    const LatticeMesh mesh{.x = {0.0, 1.0}, .y = graded(0.0, drains, n * drains), .element = element};
     ModelInput input = pore_input(mesh, 1.0, 0.0, 1.0);
     const int top = 2 * mesh.rows();
     input.supports = {held(mesh.column(0), true, false), held(mesh.column(2), true, false),
@@ -155,7 +155,7 @@ void mandel(Record& record) {
   const Mandel exact;
   std::array<MeshErrors, 4> errors;
   for (const int n : {48, 96, 192}) {
-    const PoreMesh mesh{.x = graded(0.0, 1.0, n), .y = {0.0, 0.1}};
+    const LatticeMesh mesh{.x = graded(0.0, 1.0, n), .y = {0.0, 0.1}};
     ModelInput input = pore_input(mesh, 2.0 * (1.0 + Mandel::kNu), Mandel::kNu, 1.0);
     input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), false, true),
                       drained(mesh.corner_column(2 * n))};
@@ -196,7 +196,7 @@ double coefficient(double nu) {
 // A ring of the cylinder, 1 / n high.
 double cylinder_axis(const Record& record, int n, double T) {
   constexpr double kNu = 0.3;
-  const PoreMesh mesh{.x = graded(0.0, 1.0, n), .y = {0.0, 1.0 / n}};
+  const LatticeMesh mesh{.x = graded(0.0, 1.0, n), .y = {0.0, 1.0 / n}};
   ModelInput input = pore_input(mesh, 1.0, kNu, 1.0, Geometry::axisymmetric);
   input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), false, true),
                     held(mesh.row(1), false, true), held(mesh.row(2), false, true),
@@ -219,7 +219,7 @@ void de_leeuw(Record& record) {
 double sphere_centre(const Record& record, int n, double T) {
   constexpr double kNu = 0.25;
   constexpr int kSides = 8;
-  PoreMesh mesh{.x = graded(0.002, 1.0, n), .y = graded(0.0, 1.0, kSides)};
+  LatticeMesh mesh{.x = graded(0.002, 1.0, n), .y = graded(0.0, 1.0, kSides)};
   mesh.place = [](double r, double t) {
     return Vector2(r * std::cos(0.5 * kPi * t), r * std::sin(0.5 * kPi * t));
   };
@@ -254,7 +254,7 @@ std::array<double, 4> strip_on_layer(const Record& record, int n) {
   std::vector<double> y = graded(0.0, 4.0, n, std::pow(3.0, -1.0 / n)),
                       top = graded(4.0, 5.0, n, std::pow(10.0, -1.0 / n));
   y.insert(y.end(), top.begin() + 1, top.end());
-  const PoreMesh mesh{.x = x, .y = y};
+  const LatticeMesh mesh{.x = x, .y = y};
   ModelInput input = pore_input(mesh, 1.0, 0.0, 1.0);
   const int right = 2 * mesh.columns(), up = 2 * mesh.rows();
   input.supports = {held(mesh.column(0), true, false), held(mesh.column(right), true, false),
@@ -290,7 +290,8 @@ void closed_specimen(Record& record) {
     constexpr int n = 12;
     constexpr double kG = 1.0 / 2.4;
     const double shrink = std::pow(100.0, -1.0 / n);
-    const PoreMesh mesh{.x = graded(0.0, 1.0, n, shrink), .y = graded(0.0, 1.0, n, shrink), .element = element};
+    const LatticeMesh mesh{
+        .x = graded(0.0, 1.0, n, shrink), .y = graded(0.0, 1.0, n, shrink), .element = element};
     ModelInput input = pore_input(mesh, 1.0, 0.2, 1.0, Geometry::axisymmetric);
     const std::vector<int> top = mesh.row(2 * n);
     input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), false, true),

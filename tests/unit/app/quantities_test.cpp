@@ -141,7 +141,7 @@ Model mohr_coulomb() {
 
 // Soil whose pore water flows, drained at its top; one stage in which nothing happens.
 Model of_pores() {
-  const PoreMesh mesh{.x = {1.0, 2.0}, .y = {0.0, 1.0}};
+  const LatticeMesh mesh{.x = {1.0, 2.0}, .y = {0.0, 1.0}};
   ModelInput input = scenes::pore_input(mesh, 1000.0, 0.25, 1e-3);
   input.supports = {scenes::held(mesh.row(0), true, true), scenes::drained(mesh.corner_row(2))};
   input.stages.emplace_back();

@@ -29,7 +29,7 @@ std::string words(const Kind& kind) {
 }
 std::unique_ptr<Element> make(const Kind& kind) {
   const Registry<ElementEntry>& elements = element_catalogue().elements;
-  return elements.find(elements.code_of(kind.name))->make_large(kind.geometry, 0);
+  return elements.find(elements.code_of(kind.name))->make_large(kind.geometry, 1);
 }
 std::unique_ptr<InterfaceLaw> joint(double shear = kShear) {
   return interface(21, {shear, kNormal, 0.0});

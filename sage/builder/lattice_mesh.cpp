@@ -1,42 +1,42 @@
-#include "sage/builder/pore_mesh.hpp"
+#include "sage/builder/lattice_mesh.hpp"
 
 namespace sage {
 
-int PoreMesh::node(int i, int j) const {
-  const bool middles = element != "quad8p4";
+int LatticeMesh::node(int i, int j) const {
+  const bool middles = !element.starts_with("quad8");
   if (!middles && i % 2 == 1 && j % 2 == 1) return 0;
   const int full = 2 * columns() + 1, half = columns() + 1;
   if (middles) return j * full + i + 1;
   return (j / 2) * (full + half) + (j % 2) * full + (j % 2 == 1 ? i / 2 : i) + 1;
 }
 
-std::vector<int> PoreMesh::row(int j) const {
+std::vector<int> LatticeMesh::row(int j) const {
   std::vector<int> nodes;
   for (int i = 0; i <= 2 * columns(); ++i)
     if (const int n = node(i, j); n > 0) nodes.push_back(n);
   return nodes;
 }
 
-std::vector<int> PoreMesh::column(int i) const {
+std::vector<int> LatticeMesh::column(int i) const {
   std::vector<int> nodes;
   for (int j = 0; j <= 2 * rows(); ++j)
     if (const int n = node(i, j); n > 0) nodes.push_back(n);
   return nodes;
 }
 
-std::vector<int> PoreMesh::corner_row(int j) const {
+std::vector<int> LatticeMesh::corner_row(int j) const {
   std::vector<int> nodes;
   for (int i = 0; i <= 2 * columns(); i += 2) nodes.push_back(node(i, j));
   return nodes;
 }
 
-std::vector<int> PoreMesh::corner_column(int i) const {
+std::vector<int> LatticeMesh::corner_column(int i) const {
   std::vector<int> nodes;
   for (int j = 0; j <= 2 * rows(); j += 2) nodes.push_back(node(i, j));
   return nodes;
 }
 
-void PoreMesh::write(ModelInput& input) const {
+void LatticeMesh::write(ModelInput& input) const {
   const auto along = [](const std::vector<double>& lines, int i) {
     const auto k = static_cast<std::size_t>(i / 2);
     return i % 2 == 0 ? lines[k] : 0.5 * (lines[k] + lines[k + 1]);
@@ -45,7 +45,7 @@ void PoreMesh::write(ModelInput& input) const {
     for (int i = 0; i <= 2 * columns(); ++i)
       if (node(i, j) > 0) input.nodes.push_back(place(along(x, i), along(y, j)));
   GroupInput group{.element = element, .material = 1, .elements = {}, .formulation = formulation};
-  group.second_material = 2;
+  if (element != "quad8") group.second_material = 2;
   for (int j = 0; j < 2 * rows(); j += 2)
     for (int i = 0; i < 2 * columns(); i += 2) {
       const auto at = [&](int di, int dj) { return node(i + di, j + dj); };
@@ -61,7 +61,7 @@ void PoreMesh::write(ModelInput& input) const {
   input.groups.push_back(group);
 }
 
-std::vector<int> PoreMesh::upper_elements() const {
+std::vector<int> LatticeMesh::upper_elements() const {
   std::vector<int> numbers;
   for (int i = 0; i < columns(); ++i) {
     const int cell = (rows() - 1) * columns() + i;
@@ -70,7 +70,7 @@ std::vector<int> PoreMesh::upper_elements() const {
   return numbers;
 }
 
-std::vector<int> PoreMesh::right_elements() const {
+std::vector<int> LatticeMesh::right_elements() const {
   std::vector<int> numbers;
   for (int j = 0; j < rows(); ++j) {
     const int cell = j * columns() + columns() - 1;

@@ -1,4 +1,4 @@
-// Lattices of elements that solve for the pressure of pore water, as input of a model.
+// Lattices of quadratic elements, as input of a model.
 #pragma once
 
 #include <functional>
@@ -10,9 +10,9 @@
 namespace sage {
 
 // A lattice of cells; quadratic sides have their middle where `place` puts it.
-struct PoreMesh {
+struct LatticeMesh {
   std::vector<double> x, y;         // lines of the cells' corners, ascending
-  std::string element = "quad8p4";  // tri6p3: two a cell, cut from its lower left to its upper right corner
+  std::string element = "quad8p4";  // or quad8, quad9p4; tri6p3: two a cell, cut from lower left to upper right
   std::string formulation = {};
   std::function<Vector2(double, double)> place = [](double a, double b) { return Vector2(a, b); };
 
@@ -27,7 +27,7 @@ struct PoreMesh {
   // Only those that have a pressure.
   std::vector<int> corner_row(int j) const;
   std::vector<int> corner_column(int i) const;
-  // Adds nodes and a group of elements, with materials 1 and 2.
+  // Adds nodes and a group of elements, with material 1; of elements that solve for the pressure of pore water also 2.
   void write(ModelInput& input) const;
   // Numbers of the elements along the upper or right side, and the edge (from 1) that lies there.
   std::vector<int> upper_elements() const, right_elements() const;
