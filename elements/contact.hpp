@@ -8,8 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "elements/kinematics.hpp"
-#include "elements/shapes.hpp"
+#include "elements/moving_line.hpp"
 
 namespace sage {
 
@@ -30,13 +29,16 @@ class Contact final : public Element {
   Outcome evaluate(const ElementIn& in, ElementOut& out) const override;
 
  private:
-  using Coordinates = Eigen::Matrix<double, 2, kNodes>;
-  using Dofs = Vector<kDofs>;
-  struct Place;
-  struct Sums;
-  void add_point(std::size_t p, const ElementIn& in, ElementOut& out, const Place& before, const Place& now,
-                 Sums& sums, Outcome& outcome) const;
+  using Place = SlipPoint<kNodes, Kinematics>;
+  using Coordinates = typename Place::Coordinates;
+  using Dofs = typename Place::Dofs;
+  static MovingLine<kNodes> parts_at(double xi);
+  static bool is_beside(const Place& place) { return place.share >= 0.0 && place.share <= 1.0; }
+  static bool touches(const Place& place) { return place.gap <= 0.0 && is_beside(place); }
+  Outcome add_point(std::size_t p, const ElementIn& in, ElementOut& out, const Place& before, const Place& now,
+                    SlipForces<kNodes>& sums) const;
 
+  std::array<MovingLine<kNodes>, kPoints> parts_;
   ElementTraits traits_;
   std::vector<double> to_nodes_;
 };

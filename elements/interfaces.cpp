@@ -5,20 +5,30 @@
 #include "elements/coupled_interface.hpp"
 #include "elements/entries.hpp"
 #include "elements/interface.hpp"
+#include "elements/large_interface.hpp"
 #include "elements/pore_field.hpp"
 
 namespace sage {
 
 namespace {
 
+template <template <class, class> class Kind, class Line>
+std::unique_ptr<Element> make_interface(Geometry geometry, std::string_view full_name, InterfaceRule rule) {
+  if (geometry == Geometry::plane_strain) return std::make_unique<Kind<Line, PlaneStrain>>(full_name, rule);
+  return std::make_unique<Kind<Line, Axisymmetric>>(full_name, rule);
+}
+
 template <class Line>
 Choice interface(Formulation formulation, std::string_view full_name, InterfaceRule rule) {
   formulation.points = Line::nodes;
-  return {std::move(formulation), [full_name, rule](Geometry geometry) -> std::unique_ptr<Element> {
-            if (geometry == Geometry::plane_strain)
-              return std::make_unique<Interface<Line, PlaneStrain>>(full_name, rule);
-            return std::make_unique<Interface<Line, Axisymmetric>>(full_name, rule);
-          }};
+  Choice choice{std::move(formulation), [full_name, rule](Geometry geometry) {
+                  return make_interface<Interface, Line>(geometry, full_name, rule);
+                }};
+  if (rule != InterfaceRule::row_sum)  // its weights would need the derivatives of integrals
+    choice.make_large = [full_name, rule](Geometry geometry) {
+      return make_interface<LargeInterface, Line>(geometry, full_name, rule);
+    };
+  return choice;
 }
 
 Choice coupled_interface(Formulation formulation, std::string_view full_name, InterfaceRule rule) {

@@ -8,6 +8,7 @@
 #include "sage/analysis/free_surface.hpp"
 #include "sage/analysis/stream_function.hpp"
 #include "sage/analysis/uniqueness.hpp"
+#include "sage/core/contact.hpp"
 
 namespace sage {
 
@@ -88,6 +89,29 @@ void add_weak_points(WeakPoints& weak, const Assembly& assembly, const GroupData
     last = p / points;
     weak.elements.add(data.group->element_numbers[last]);
   }
+}
+
+// An interface that follows the motion joins pairs of nodes, which slip parts.
+void add_slips(Messages& messages, const Assembly& assembly) {
+  constexpr double kFar = 0.5;  // of the element's length
+  NamedElements far;
+  for (const GroupData& data : assembly.groups()) {
+    const Group& group = *data.group;
+    const ElementTraits& traits = group.element->traits();
+    if (!data.active || !group.interface() || is_contact(*group.entry) || !traits.sees_coordinates) continue;
+    const auto slips = static_cast<std::size_t>(2 * traits.points);
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* const nodes = group.nodes_of(e);
+      const double length = (assembly.mesh().x.col(nodes[1]) - assembly.mesh().x.col(nodes[0])).norm();
+      const double* const w = data.state.committed.eps.data() + static_cast<std::size_t>(e) * slips;
+      double slip = 0.0;
+      for (int point = 0; point < traits.points; ++point) slip = std::max(slip, std::abs(w[2 * point]));
+      if (slip > kFar * length) far.add(group.element_numbers[e]);
+    }
+  }
+  if (!far.empty())
+    messages.add("S559", "a slip of more than half an element's length " + far.words() +
+                             ": its sides lie opposite to other elements than those that it joins");
 }
 
 void add_points(Messages& messages, const Assembly& assembly) {
@@ -188,6 +212,7 @@ std::vector<Diagnostic> stage_warnings(const Stage& stage, const StageFindings& 
             "depends on the path",
         Severity::note);
   add_points(messages, assembly);
+  add_slips(messages, assembly);
   if (findings.last_force > stage.tolerance)
     messages.add(
         "S525",

@@ -52,7 +52,7 @@ std::string objection(const Model& model, const Group& group) {
   if (material.undrained) return "stands in undrained ground";
   if (!group.choices.empty() || !material.variants.empty())
     return "changes from point to point or from stage to stage";
-  if (is_contact(*group.entry)) return {};
+  if (group.interface()) return {};  // slip and gap are no strains
   const LawRef law = material.law_ref();
   const auto* const solid = std::get_if<const SolidLaw*>(&law);
   if (solid != nullptr && dynamic_cast<const ElasticShear*>(*solid) != nullptr) return {};

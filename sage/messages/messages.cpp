@@ -988,9 +988,8 @@ constexpr MessageEntry kMessages[] = {
      "path. With a dilation angle closer to friction it depends less."},
     {"S551", "an element for small strain alone",
      "Large strain computes every element at its present position. Solid elements of few nodes without "
-     "enhanced strain and elements of contact can do that. Interfaces, structures, elements of flow and "
-     "coupled "
-     "elements can't.",
+     "enhanced strain, interfaces with Gauss or Newton-Cotes points and elements of contact can do that. "
+     "Structures, elements of flow and coupled elements can't.",
      "Use one of the elements or formulations that the message lists, or small strain."},
     {"S552", "a law for small strain alone",
      "Large strain gives a law the Kirchhoff stress and increments of the elastic logarithmic strain. The law "
@@ -1032,6 +1031,13 @@ constexpr MessageEntry kMessages[] = {
      "the "
      "numbers before its end are not those of a body under its pressure, nor is the path of a plastic law.",
      "Put the pressures into a first stage without motion. Move the supports in the next one."},
+    {"S559", "sides of an interface that have slipped apart",
+     "Under large strain an interface follows the motion of its two sides. It joins the pairs of nodes of the "
+     "mesh. "
+     "Where they slip by more than half of an element's length, the tractions act between parts that no longer "
+     "touch.",
+     "Use longer elements along the interface, or elements of contact where one side is rigid "
+     "(docs/manual/large_strain.md)."},
     {"S570", "bounds need plane strain",
      "sagefe bounds solves the problems of limit analysis in plane strain. Its upper field has no hoop strain "
      "and its lower field no hoop stress.",

@@ -558,6 +558,91 @@ TEST(LargeStrainModels, ABarOnALineHasThePenaltysCompliance) {
   }
 }
 
+// Two blocks, one upon the other, with an interface between them; the lower one 10 wide under one of the width 1 to 2.
+struct Blocks {
+  ModelInput input{.units = {"m", "kN", "kPa", 101.325, 9.81}, .large_strain = true};
+  std::vector<int> bottom{1, 2}, top{7, 8};
+  explicit Blocks(double shear_stiffness) {
+    input.nodes = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0},
+                   {0.0, 1.0}, {1.0, 1.0}, {1.0, 2.0}, {0.0, 2.0}};
+    input.materials = {
+        elastic(1.0, 0.3),
+        {.law = "goodman",
+         .parameters = {{"shear_stiffness", shear_stiffness}, {"normal_stiffness", 50.0}, {"tension", 1.0}}}};
+    input.groups = {
+        {.element = "quad4", .material = 1, .elements = {{1, 2, 3, 4}, {5, 6, 7, 8}}},
+        {.element = "interface4", .material = 2, .elements = {{4, 3, 6, 5}}, .formulation = "Gauss"}};
+    input.supports = {{.nodes = bottom, .x = FixityCode::fixed, .y = FixityCode::fixed}};
+  }
+};
+
+// Plates of a column without lateral strain, M = E (1 - nu)/((1 + nu)(1 - 2 nu)): each has the force -M ln(l) of the width 1,
+// and the joint closes by that over its stiffness.  The whole is then turned by 60 degrees, and has the same forces.
+TEST(LargeStrainModels, AJointBetweenBlocksHasItsComplianceAndTurnsWithThem) {
+  Blocks blocks(10.0);
+  const double l = 0.8, force = -0.7 / (1.3 * 0.4) * std::log(l) / l, closing = force / 50.0;
+  std::vector<int> all{1, 2, 3, 4, 5, 6, 7, 8};
+  StageInput press{.increments = 2, .tolerance = 1e-12};
+  press.supports = {{.nodes = all, .x = FixityCode::fixed},
+                    {.nodes = blocks.top,
+                     .x = FixityCode::fixed,
+                     .y = FixityCode::fixed,
+                     .y_value = -2.0 * (1.0 - l) - closing}};
+  blocks.input.stages = {press};
+  const WholeRun whole = run(blocks.input);
+  ASSERT_TRUE(whole.completed()) << whole.failure;
+  EXPECT_NEAR(whole.reaction(whole.last(), blocks.top, 1), -force, 1e-9 * force);
+  EXPECT_NEAR(whole.reaction(whole.last(), blocks.bottom, 1), force, 1e-9 * force);
+  // Turned about the origin in six steps of ten degrees.
+  const std::vector<Vector2> first = blocks.input.nodes;
+  std::vector<Vector2> places;
+  for (int n = 1; n <= 8; ++n) places.push_back(first[static_cast<std::size_t>(n - 1)] + whole.u(n));
+  for (int step = 0; step < 6; ++step) {
+    StageInput turn{.tolerance = 1e-12};
+    for (const int n : {1, 2, 7, 8}) {
+      const double a = kPi / 18.0 * step, b = kPi / 18.0 * (step + 1);
+      const Vector2 p = places[static_cast<std::size_t>(n - 1)];
+      const Vector2 from(std::cos(a) * p.x() - std::sin(a) * p.y(), std::sin(a) * p.x() + std::cos(a) * p.y()),
+          to(std::cos(b) * p.x() - std::sin(b) * p.y(), std::sin(b) * p.x() + std::cos(b) * p.y());
+      turn.supports.push_back({.nodes = {n},
+                               .x = FixityCode::fixed,
+                               .y = FixityCode::fixed,
+                               .x_value = to.x() - from.x(),
+                               .y_value = to.y() - from.y()});
+    }
+    // Inner corners are held across: they go on chords, so that they are left free here.
+    turn.supports.push_back({.nodes = {3, 4, 5, 6}, .x = FixityCode::released});
+    blocks.input.stages.push_back(turn);
+  }
+  const WholeRun turned = run(blocks.input);
+  ASSERT_TRUE(turned.completed()) << turned.failure;
+  const double fx = turned.reaction(turned.last(), blocks.top, 0),
+               fy = turned.reaction(turned.last(), blocks.top, 1);
+  // Inner corners that are free widen a little, so compare with the same blocks whose corners are let go without a turn.
+  Blocks still(10.0);
+  still.input.stages = {press, {.tolerance = 1e-12}};
+  still.input.stages[1].supports = {{.nodes = {3, 4, 5, 6}, .x = FixityCode::released}};
+  const WholeRun free = run(still.input);
+  ASSERT_TRUE(free.completed()) << free.failure;
+  const double expected = free.reaction(free.last(), still.top, 1);
+  EXPECT_NEAR(std::hypot(fx, fy), std::abs(expected), 1e-7 * force);
+  EXPECT_NEAR(std::atan2(fy, fx), -kPi / 2.0 + kPi / 3.0, 1e-6);
+}
+
+// A slip that the joint bears by its shear stiffness over the length that it has.
+TEST(LargeStrainModels, SlipBeyondHalfAnElementIsWarnedOf) {
+  for (const double slip : {0.4, 0.6}) {
+    Blocks blocks(1e-3);
+    StageInput slide{.increments = 4, .tolerance = 1e-11};
+    slide.supports = {{.nodes = blocks.top, .x = FixityCode::fixed, .y = FixityCode::fixed, .x_value = slip}};
+    blocks.input.stages = {slide};
+    const WholeRun whole = run(blocks.input);
+    ASSERT_TRUE(whole.completed()) << whole.failure;
+    EXPECT_NEAR(whole.reaction(whole.last(), blocks.top, 0), 1e-3 * slip, 0.02 * 1e-3 * slip);
+    EXPECT_EQ(whole.warns("more than half an element's length in element(s) 3"), slip > 0.5) << slip;
+  }
+}
+
 // The nodes of the line may be at places of other nodes: no body is cut there.
 TEST(LargeStrainModels, NodesOfALineOfContactMayCoincideWithOthers) {
   const Grid grid = above_a_line("quad8", 0.0, 0.01, 1.0);
