@@ -155,6 +155,7 @@ void check_coarse(Builder& b);
 void check_overlap(Builder& b);
 // Interfaces whose sides belong to the wrong bodies.
 void check_interfaces(Builder& b);
+void check_contact(Builder& b);
 // Loads and displacements on inactive nodes and elements.
 void check_inactive(Builder& b);
 // Shapes, supports, unused nodes, radii, solver.

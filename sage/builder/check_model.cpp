@@ -374,6 +374,7 @@ void warn_dilation(Builder& b) {
 void check_model(Builder& b) {
   check_shapes(b);
   if (b.problems.errors() == 0) check_interfaces(b);
+  if (b.problems.errors() == 0) check_contact(b);
   if (b.problems.errors() == 0) check_structures(b);
   fix_axis(b);
   check_inactive(b);

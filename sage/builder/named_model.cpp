@@ -11,6 +11,8 @@
 
 #include "sage/builder/builder.hpp"
 #include "sage/core/short_names.hpp"
+#include "sage/deck/read_deck.hpp"
+#include "sage/deck/wide_layout.hpp"
 #include "sage/messages/near_names.hpp"
 
 namespace sage {
@@ -56,6 +58,8 @@ NamedModel::NamedModel(const Deck& deck, const Catalogue& catalogue, BuildOption
   deck_ = deck;
   if (!deck.draft)
     if (std::optional<Deck> cards = builder::cards_of(deck, catalogue)) deck_ = *std::move(cards);
+  // Cards from here on, whose values change: the file must not be read again.
+  if (is_model_file(deck)) deck_.layout = kWideLayout;
   find_names();
 }
 

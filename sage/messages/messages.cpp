@@ -1038,6 +1038,18 @@ constexpr MessageEntry kMessages[] = {
      "touch.",
      "Use longer elements along the interface, or elements of contact where one side is rigid "
      "(docs/manual/large_strain.md)."},
+    {"S560", "contact without an edge of a solid",
+     "An element of contact lies on one whole edge of a solid element and has all its nodes: both ends, then "
+     "the middle "
+     "node. Otherwise parts of the edge pass the line without a force.",
+     "Give the nodes of the edge that the message names. Edges of two nodes need contact4, edges of three "
+     "contact5. "
+     "Options that change the elements of the solids do not change contact."},
+    {"S561", "the line of contact stands the wrong way or is loose",
+     "The solid is on the left of the way from the first node of the line to the second. Supports hold both "
+     "nodes or move "
+     "them.",
+     "Exchange the two nodes, or add supports in x and y."},
     {"S570", "bounds need plane strain",
      "sagefe bounds solves the problems of limit analysis in plane strain. Its upper field has no hoop strain "
      "and its lower field no hoop stress.",

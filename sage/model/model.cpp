@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "sage/core/contact.hpp"
+
 namespace sage {
 
 std::string history_text(const TimeTable& table) {
@@ -62,11 +64,33 @@ std::optional<double> Material::parameter(ParameterRole role) const {
   return parameters[i];
 }
 
+namespace {
+
+// Without those of lines of contact, which may be longer than what stands on them: where no other is left, the specimen's.
+std::vector<int> nodes_of_area(const Model& model, const Report& report) {
+  std::vector<char> of_bodies(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  bool contact = false;
+  for (const Group& group : model.groups) {
+    if (is_contact(*group.entry)) {
+      contact = true;
+      continue;
+    }
+    for (const int node : group.nodes) of_bodies[node] = 1;
+  }
+  if (!contact) return report.nodes;
+  std::vector<int> nodes = report.nodes;
+  std::erase_if(nodes, [&](int node) { return of_bodies[node] == 0; });
+  return nodes.empty() && report.group >= 0 ? model.groups[report.group].nodes : nodes;
+}
+
+}  // namespace
+
 double report_area(const Model& model, const Report& report) {
   if (report.area > 0.0) return report.area;
-  if (report.nodes.empty()) return std::numeric_limits<double>::quiet_NaN();
-  double low = model.mesh.x(0, report.nodes.front()), high = low;
-  for (int node : report.nodes) {
+  const std::vector<int> nodes = nodes_of_area(model, report);
+  if (nodes.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double low = model.mesh.x(0, nodes.front()), high = low;
+  for (const int node : nodes) {
     low = std::min(low, model.mesh.x(0, node));
     high = std::max(high, model.mesh.x(0, node));
   }

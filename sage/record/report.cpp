@@ -232,7 +232,14 @@ SpecimenStart start_of_specimen(const Model& model, const Report& report, const 
   const double off = kAlike * std::max(std::abs(report.cell_pressure), 1e-300);
   const bool ring = model.geometry == Geometry::axisymmetric;
   const auto held = [&](std::size_t i) { return std::abs(start.sigma[i] + report.cell_pressure) <= off; };
-  if (!held(0) || (ring && !held(2))) start.sigma.clear();
+  if (held(0) && (!ring || held(2))) return start;
+  // Under large strain the lateral stress counts: the test keeps that of the specimen.
+  if (model.large_strain)
+    start.note =
+        "the lateral stress of the specimen is not the report's cell pressure; the correct test keeps the "
+        "specimen's";
+  else
+    start.sigma.clear();
   return start;
 }
 

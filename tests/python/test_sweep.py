@@ -49,6 +49,20 @@ def test_grid_gives_table_7_3(tmp_path):
     assert (tmp_path / "study.sweep.svg").read_text().startswith("<svg")
 
 
+def test_a_model_file_has_the_answers_of_its_deck(tmp_path):
+    """Parameters of materials, stages and reports, by the same names."""
+    model = tmp_path / "pinned.sage.toml"
+    subprocess.run([PROGRAM, "convert", str(PINNED), str(model)], check=True, capture_output=True)
+    text = ('collect = ["report1.ratio", "report1.force"]\n[grid]\n"material.1.nu" = [0.25, 0.495]\n'
+            '"stage.2.increments" = [5, 10]\n"report.1.cell_pressure" = [50, 60]\n')
+    sweep(study(tmp_path, text), tmp_path / "cards")
+    sweep(study(tmp_path, text, model, "drawn"), tmp_path / "drawn")
+    cards, drawn = rows_of(tmp_path / "cards"), rows_of(tmp_path / "drawn", "drawn")
+    assert len(cards) == 8 and [row["report1.ratio"] for row in cards] == [row["report1.ratio"] for row in drawn]
+    assert [row["report1.force"] for row in cards] == [row["report1.force"] for row in drawn]
+    assert len({row["report1.ratio"] for row in drawn}) > 1
+
+
 def test_finished_cases_are_kept(tmp_path):
     file = study(tmp_path, TABLE)
     sweep(file, tmp_path)

@@ -218,6 +218,19 @@ TEST(LargeStrainModels, ReportsOfSpecimensHaveNominalAndCorrectedStresses) {
     EXPECT_NEAR(last.ratio, 1.0, 1e-4) << on_platen;
     // Nominal: on an area that has grown, at nearly constant volume, by 1 / (1 - .2).
     EXPECT_NEAR(last.measured_deviator, 250.0, 0.02 * 250.0) << on_platen;
+    // A card without area and pressure, or with another pressure, has the same deviators: those of the specimen.
+    for (const double pressure : {0.0, 150.0}) {
+      ModelInput other = grid.input;
+      other.reports[0].area = 0.0;
+      other.reports[0].cell_pressure = pressure;
+      Reports others;
+      Observer* watching[] = {&others};
+      ASSERT_EQ(bench().run(build_model(other, everything()), watching).status, RunStatus::completed);
+      const TriaxialRow& row = others.triaxial(0).back();
+      EXPECT_NEAR(row.ratio, last.ratio, 1e-12) << on_platen << " " << pressure;
+      EXPECT_NEAR(row.measured_deviator, last.measured_deviator, 1e-9) << on_platen << " " << pressure;
+      EXPECT_EQ(others.messages(0).size(), 1u) << on_platen << " " << pressure;  // S531
+    }
   }
 }
 
@@ -641,6 +654,35 @@ TEST(LargeStrainModels, SlipBeyondHalfAnElementIsWarnedOf) {
     EXPECT_NEAR(whole.reaction(whole.last(), blocks.top, 0), 1e-3 * slip, 0.02 * 1e-3 * slip);
     EXPECT_EQ(whole.warns("more than half an element's length in element(s) 3"), slip > 0.5) << slip;
   }
+}
+
+// What an element of contact must be given; the parts that are not would let the edge pass the line.
+TEST(LargeStrainModels, ContactLiesOnOneEdgeOfASolidBesideAHeldLine) {
+  const auto contact = [](const std::vector<int>& nodes) {
+    Grid grid = above_a_line("quad8", -0.1, 0.2);
+    grid.input.groups[1].elements = {nodes};
+    return grid.input;
+  };
+  Grid grid = above_a_line("quad8", -0.1, 0.2);
+  const auto at = [&](int i, int j) { return grid.numbers.at({i, j}); };
+  const int last = static_cast<int>(grid.input.nodes.size());
+  ASSERT_EQ(complaint(contact({at(0, 0), at(2, 0), at(1, 0), last - 1, last})), "");
+  expect_complaint(contact({at(0, 0), at(1, 0), at(2, 0), last - 1, last}), "S560", "ends first");
+  expect_complaint(contact({at(0, 0), at(2, 2), at(1, 0), last - 1, last}), "S560", "no solid has an edge");
+  expect_complaint(contact({at(0, 0), at(2, 0), at(1, 0), last, last - 1}), "S561", "exchange the two");
+  ModelInput twice = contact({at(0, 0), at(2, 0), at(1, 0), last - 1, last});
+  twice.groups[1].elements.push_back(twice.groups[1].elements.front());
+  expect_complaint(twice, "S560", "given twice");
+  ModelInput half = contact({at(0, 0), at(2, 0), last - 1, last});
+  half.groups[1].element = "contact4";
+  expect_complaint(half, "S560", "contact5");
+  ModelInput loose = contact({at(0, 0), at(2, 0), at(1, 0), last - 1, last});
+  loose.stages[0].supports = {pushed({last - 1, last}, 0.2)};
+  expect_complaint(loose, "S561", "held by no support");
+  // An edge on the line shows by the solid's side alone which way the line goes.
+  Grid closed = above_a_line("quad8", 0.0, 0.1);
+  std::swap(closed.input.groups[1].elements[0][3], closed.input.groups[1].elements[0][4]);
+  expect_complaint(closed.input, "S561", "exchange the two");
 }
 
 // The nodes of the line may be at places of other nodes: no body is cut there.
