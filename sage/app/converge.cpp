@@ -468,6 +468,14 @@ MeshSequence ConvergenceStudy::choose_sequence() {
              "--formulation are not used",
              "S909");
   if (sequence.kind == MeshSequence::halving) return sequence;
+  if (first.combines_dofs()) {
+    say_note(
+        request_.deck,
+        "the deck's own elements are halved: which corners are singular is known for supports along x and y "
+        "alone",
+        "S403");
+    return halving(first);
+  }
   const bool coarsen = build.coarsen;
   if (!coarsen) {
     BuildOptions coarse = build;

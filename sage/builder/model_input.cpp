@@ -179,6 +179,7 @@ void InputCards::add_support(const SupportInput& support, const std::string& car
                                  {"y_value", support.y_value}};
     if (!support.unknown.empty()) fields.push_back({"unknown", 0.0, {}, support.unknown});
     if (!support.history.empty()) fields.push_back({"history", 0.0, {}, history_text(support.history)});
+    if (support.angle != 0.0) fields.push_back({"angle", support.angle});
     add(card, fields, owner);
   }
 }

@@ -40,6 +40,7 @@ struct SupportInput {
   std::string unknown = {};  // another field than displacement, its code and value in x
   TimeTable history = {};    // of an excess pressure
   bool exit = false;         // of a field: water may leave at the value, none comes in (code 2)
+  double angle = 0.0;        // degrees, anticlockwise from x: x is along a line at this angle, y normal to it
 };
 
 // Added on each of the nodes in this stage.

@@ -779,6 +779,20 @@ constexpr MessageEntry kMessages[] = {
      "A water card makes a group undrained or drained, and the elements of the group already solve for the "
      "pressure of their water.",
      "Remove the water card. The field pore_water of each stage defines whether that water can move."},
+    {"S367", "a support at an angle can't be so",
+     "The field angle of a fixity card turns the directions that the card holds. It is for displacements that "
+     "are fixed, released or grow in proportion to the stage.",
+     "Correct the angle, in degrees, or leave it blank. Divide a motion that follows a table of time into "
+     "stages."},
+    {"S368", "displacements at a support contradict each other",
+     "A node has two displacements. It is held in three or more directions, and the values of the cards in "
+     "this "
+     "stage belong to no displacement.",
+     "Hold the node in one or two directions, or correct the values of the displacements."},
+    {"S369", "supports at an angle or ties are not possible here",
+     "Bounds by limit analysis and --coarsen know supports along x and y alone.",
+     "Run the model with sagefe run or sagefe safety, or turn its axes so that all supports are along x and "
+     "y."},
 
     // S4: refining, grading and mid-side nodes.
     {"S401", "elements of different degree meet",

@@ -62,6 +62,11 @@ std::optional<double> Material::parameter(ParameterRole role) const {
   return parameters[i];
 }
 
+Vector2 turned_axis(double angle, std::size_t component) {
+  const double along = angle * kRadiansPerDegree, c = std::cos(along), s = std::sin(along);
+  return component == 0 ? Vector2(c, s) : Vector2(-s, c);
+}
+
 double report_area(const Model& model, const Report& report) {
   if (report.area > 0.0) return report.area;
   if (report.nodes.empty()) return std::numeric_limits<double>::quiet_NaN();

@@ -238,8 +238,8 @@ bool Drawing::mesh_it() {
     for (const SectionFault& fault : error.faults())
       values_.error(fault.code, place_of(fault.item, fault.index), fault.message);
   }
-  for (const Tie& tie : mesh_.ties) {
-    if (tie.kind != Tie::Kind::end) continue;
+  for (const NodePair& tie : mesh_.ties) {
+    if (tie.kind != NodePair::Kind::end) continue;
     values_.error("S152", place_of(SectionItem::line, tie.line),
                   "line " + section_.lines[tie.line].name +
                       ": the end of a joint inside the ground can be joined only with a beam; leave it open");

@@ -86,7 +86,10 @@ SupportInput support_of(const py::handle& object) {
           fixity_of(object, "y"),
           attribute<double>(object, "x_value"),
           attribute<double>(object, "y_value"),
-          attribute<std::string>(object, "unknown")};
+          attribute<std::string>(object, "unknown"),
+          {},
+          false,
+          attribute<double>(object, "angle")};
 }
 
 LoadInput load_of(const py::handle& object) {

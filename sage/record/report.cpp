@@ -53,7 +53,8 @@ std::array<double, 2> released_forces(const Model& model, const Report& report, 
   for (int node : report.nodes)
     for (int c = 0; c < 2; ++c) {
       const int dof = DofMap::displacement(node, c);
-      if (active[node] && !start.activity->held[dof]) sum[c] += (*start.internal)[dof] - (*start.external)[dof];
+      if (active[node] && !start.activity->is_constrained(dof))
+        sum[c] += (*start.internal)[dof] - (*start.external)[dof];
     }
   const double largest = start.internal->size() > 0 ? start.internal->lpNorm<Eigen::Infinity>() : 0.0;
   for (double& s : sum)

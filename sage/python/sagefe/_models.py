@@ -50,14 +50,18 @@ class Group:
 
 
 class Support:
-    """Supports of nodes: "fixed", "released" or "" (as before) along x and y, with displacements of the stage."""
+    """Supports of nodes: "fixed", "released" or "" (as before) along x and y, with displacements of the stage.
+
+    With an angle (degrees, anticlockwise from x), x is along a line at this angle and y normal to it.
+    """
 
     def __init__(self, nodes: ArrayLike, x: str = "", y: str = "", *, x_value: float = 0.0, y_value: float = 0.0,
-                 unknown: str = "") -> None:
+                 unknown: str = "", angle: float = 0.0) -> None:
         self.nodes = _whole(nodes)
         self.x, self.y = x, y
         self.x_value, self.y_value = float(x_value), float(y_value)
         self.unknown = unknown
+        self.angle = float(angle)
 
 
 class Load:
