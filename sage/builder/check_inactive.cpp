@@ -80,8 +80,9 @@ void check_inactive(Builder& b) {
     }
     for (std::size_t i = 0; i < model.reports.size(); ++i) {
       const Report& report = model.reports[i];
-      if (report.kind == ReportKind::point || stage.number <= report.stage ||
-          !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) || !reported.insert(i).second)
+      if (report.kind == ReportKind::point || report.kind == ReportKind::section ||
+          stage.number <= report.stage || !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) ||
+          !reported.insert(i).second)
         continue;
       b.warning("S332", report.where,
                 "stage " + std::to_string(stage.number) +

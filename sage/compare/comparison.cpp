@@ -583,6 +583,7 @@ void add_notes(Comparison& c, const Side& a, const Side& b) {
 // Columns of a report that people read first.
 bool is_answer(ReportKind kind, const std::string& column) {
   if (kind == ReportKind::triaxial) return column == "measured_deviator" || column == "ratio";
+  if (kind == ReportKind::section) return column != "length" && !column.ends_with("_error");
   return !column.starts_with("strain_");
 }
 

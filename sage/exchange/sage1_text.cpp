@@ -524,17 +524,19 @@ void Sage1Writer::point(const Report& report) {
   line();
   for (double value : {report.place.x(), report.place.y()}) real(value);
   name(report.name, 20);
+  if (report.kind == ReportKind::section)
+    for (double value : {report.end.x(), report.end.y()}) real(value);
   line();
 }
 
 bool Sage1Writer::is_written(const Report& report) const {
-  return report.kind == ReportKind::point ||
+  return report.kind == ReportKind::point || report.kind == ReportKind::section ||
          std::any_of(report.nodes.begin(), report.nodes.end(), [&](int node) { return is_given(node); });
 }
 
 void Sage1Writer::report(const Report& report) {
   if (!is_written(report)) return;
-  if (report.kind == ReportKind::point) return point(report);
+  if (report.kind == ReportKind::point || report.kind == ReportKind::section) return point(report);
   std::vector<int> numbers;
   for (int node : report.nodes)
     if (is_given(node)) numbers.push_back(node_number(node));

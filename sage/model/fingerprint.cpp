@@ -95,9 +95,11 @@ std::uint64_t fingerprint(const Model& model) {
     for (const Vector2& point : card.line) add(archive, point.x(), point.y());
     for (const auto& [node, pressure] : card.nodes) add(archive, node, pressure);
   }
-  for (const Report& r : model.reports)
+  for (const Report& r : model.reports) {
     add(archive, r.kind, r.group, r.nodes, r.height, r.area, r.cell_pressure, r.place.x(), r.place.y(), r.name,
         r.stage);
+    if (r.kind == ReportKind::section) add(archive, r.end.x(), r.end.y());
+  }
   return archive.sum();
 }
 

@@ -311,20 +311,24 @@ struct Stage {
   bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }
 };
 
-enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4, uplift = 5 };
+enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4, uplift = 5, section = 6 };
 
 // triaxial: axial force of the listed nodes against the law's own answer for frictionless ends.
 // nodes: displacement and force summed over the listed nodes, a row an increment.
 // point: displacement, strain and stress at a place, a row an increment.
 // discharge: what flows through a line of nodes, from its left to its right, a row an increment.
 // uplift: the weight above a line of nodes against the water below it, a row at the end of each stage.
+// section: normal force, shear force and bending moment of the solids along a straight cut, a row an increment.
 struct Report {
   ReportKind kind = ReportKind::triaxial;
-  int group = -1;  // triaxial: of the specimen; point: the one that answers where several meet, -1 = the first
+  // triaxial: of the specimen; point: the one that answers where several meet, -1 = the first; section: the one that is cut,
+  // -1 = all solids
+  int group = -1;
   std::vector<int> nodes;
   double height = 0.0, area = 0.0, cell_pressure = 0.0;
-  Vector2 place = Vector2::Zero();  // point
-  std::string name;                 // point; may be empty
+  Vector2 place = Vector2::Zero();  // point; section: first end of the cut
+  Vector2 end = Vector2::Zero();    // section: its second end
+  std::string name;                 // point, section; may be empty
   std::vector<std::string> fields;  // point: more than the usual ones, by name
   int stage = 0;                    // strain and deviator count from the start of this stage (0-based)
   SourcePosition where;

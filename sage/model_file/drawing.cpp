@@ -445,6 +445,12 @@ void Drawing::add(const toml::table& root) {
   add_bars(root);
 }
 
+std::optional<Vector2> Drawing::point_at(const toml::node& node) {
+  const int found = find_point(node);
+  if (found < 0) return std::nullopt;
+  return section_.points[static_cast<std::size_t>(found)].x;
+}
+
 std::vector<int> Drawing::nodes_at(const toml::node& node) {
   const int found = find_point(node);
   std::vector<int> numbers;

@@ -175,7 +175,8 @@ ReportInput report_of(const py::handle& object) {
                                              {"nodes", ReportKind::nodes},
                                              {"point", ReportKind::point},
                                              {"discharge", ReportKind::discharge},
-                                             {"uplift", ReportKind::uplift}});
+                                             {"uplift", ReportKind::uplift},
+                                             {"section", ReportKind::section}});
   report.nodes = attribute<std::vector<int>>(object, "nodes");
   report.group = attribute<int>(object, "group");
   report.stage = attribute<int>(object, "stage");
@@ -185,6 +186,8 @@ ReportInput report_of(const py::handle& object) {
   const auto place = attribute<std::pair<double, double>>(object, "place");
   report.place = {place.first, place.second};
   report.name = attribute<std::string>(object, "name");
+  const auto end = attribute<std::pair<double, double>>(object, "end");
+  report.end = {end.first, end.second};
   return report;
 }
 

@@ -120,7 +120,7 @@ class Stage:
 
 @dataclass
 class ReportOf:
-    """A report: kind "triaxial", "nodes", "point", "discharge" or "uplift"."""
+    """A report: kind "triaxial", "nodes", "point", "discharge", "uplift" or "section" (place and end)."""
 
     kind: str
     nodes: Sequence[int] = ()
@@ -131,6 +131,7 @@ class ReportOf:
     cell_pressure: float = 0.0
     place: Tuple[float, float] = (0.0, 0.0)
     name: str = ""
+    end: Tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass
