@@ -35,11 +35,12 @@ EquilibriumAudit audit_equilibrium(const Model& model, const Assembly& assembly,
   const Eigen::VectorXd &f = *now.internal, &external = *now.external, &u = *now.u;
   double moment_scale = 0.0, extent = 0.0, scale[2] = {0, 0};
   const DofMap& map = assembly.dof_map();
+  const Eigen::VectorXd unbalanced = f - external;
   audit.fields.resize(static_cast<std::size_t>(map.fields()) - 1);
   for (int dof = 0; dof < map.dofs(); ++dof) {
     if (!assembly.in_use(dof)) continue;
     const auto [node, field, c] = map.at(dof);
-    const double reaction = assembly.equation_of(dof) < 0 ? f[dof] - external[dof] : 0.0;
+    const double reaction = assembly.numbering().constraint_force(unbalanced, dof);
     const double size = std::max(std::abs(external[dof]) + std::abs(reaction), std::abs(force_start[dof]));
     if (field > 0) {
       FieldAudit& sums = audit.fields[static_cast<std::size_t>(field) - 1];

@@ -157,6 +157,22 @@ Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map) {
   return rate;
 }
 
+// Of the directions that are held each card of the stage moves its own; the others stay.
+void add_turned_rate(const Stage& stage, const Activity& activity, Eigen::VectorXd& rate) {
+  for (const TurnedNode& node : activity.turned) {
+    if (std::ranges::none_of(node.axes, &TurnedNode::Axis::held)) continue;
+    const int dof = DofMap::displacement(node.node);
+    const Vector2 by_xy = rate.segment<2>(dof);
+    rate.segment<2>(dof) = held_motion(stage, node, by_xy);
+  }
+  for (const std::vector<int>& set : activity.tied) {
+    const auto moved = std::ranges::find_if(set, [&](int dof) { return rate[dof] != 0.0; });
+    if (moved == set.end()) continue;
+    const double value = rate[*moved];
+    for (const int dof : set) rate[dof] = value;
+  }
+}
+
 Eigen::VectorXd supported_values(const Model& model, int stage, const DofMap& map) {
   Eigen::VectorXd values = Eigen::VectorXd::Zero(map.dofs());
   for (const Stage& before : std::span(model.stages).first(static_cast<std::size_t>(stage))) {

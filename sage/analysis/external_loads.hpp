@@ -25,6 +25,9 @@ Eigen::VectorXd table_loads(const Model& model, int stage, const Activity& activ
 
 // Displacement that each prescribed dof gets over a stage.
 Eigen::VectorXd prescribed_rate(const Stage& stage, const DofMap& map);
+// The same of nodes with turned supports and of dofs that are tied to moved ones, in place of what `rate` has there.
+// activity: of the stage.
+void add_turned_rate(const Stage& stage, const Activity& activity, Eigen::VectorXd& rate);
 // Values of supports of the field at the start of a stage, one entry per dof: sums of those of the stages before, from the
 // last one that released it.  Meant for fields whose supports have their own value (UnknownField::of_pores).
 Eigen::VectorXd supported_values(const Model& model, int stage, const DofMap& map);

@@ -54,11 +54,13 @@ InitialImbalance initial_imbalance(const Model& model, const Activity& activity,
   for (const Fixity& f : now.fixities)
     if (stage > 0 && (f.code[0] == FixityCode::released || f.code[1] == FixityCode::released))
       looked_at[f.node] = 0;
+  for (const TurnedFixity& f : now.turned_fixities)
+    if (stage > 0) looked_at[f.node] = 0;
   const Eigen::VectorXd added = stage_loads(model, stage, activity);
   for (int dof = 0; dof < activity.dof_map.displacements(); ++dof) {
     if (!looked_at[activity.dof_map.at(dof).node]) continue;
     worst.largest = std::max(worst.largest, std::abs(internal[dof]));
-    if (activity.held[dof]) continue;
+    if (activity.is_constrained(dof)) continue;
     const auto [low, high] = std::minmax({external[dof] - added[dof], external[dof]});
     const double off = internal[dof] - std::clamp(internal[dof], low, high);
     if (worst.dof >= 0 && std::abs(off) <= std::abs(worst.force)) continue;

@@ -57,14 +57,15 @@ void ControlledLoad::correct(StepIteration& step) {
   const int n = assembly_.equations();
   load_.resize(n);
   motion_.resize(n);
-  for (int eq = 0; eq < n; ++eq) load_[eq] = direction_[assembly_.dof_of(eq)];
+  for (int eq = 0; eq < n; ++eq) load_[eq] = assembly_.numbering().force(direction_, eq);
   step.tangent.solve(load_, motion_, step.work);
   double missing = goal_ - sum_of(terms_, step.du), flexibility = 0.0;
   for (const ControlTerm& term : terms_) {
     const int eq = term.dof >= 0 ? assembly_.equation_of(term.dof) : -1;
     if (eq < 0) continue;
-    missing -= term.factor * step.correction[eq];
-    flexibility += term.factor * motion_[eq];
+    const double factor = term.factor * assembly_.numbering().share(term.dof);
+    missing -= factor * step.correction[eq];
+    flexibility += factor * motion_[eq];
   }
   const double change = missing / flexibility;
   step.correction += change * motion_;

@@ -42,24 +42,52 @@ const Patches& ProbeMaker::patches(int zone) const {
   return patches_.try_emplace(zone, *model_, same, elements_).first->second;
 }
 
-Probe ProbeMaker::at(const Vector2& place, int group) const {
+bool ProbeMaker::uses_own_stress(const Group& group) {
+  return group.element->traits().degree >= kOwnDegree && group.entry->square();
+}
+
+// Without stress.
+Probe ProbeMaker::blank_at(const Vector2& place, int group, std::vector<Location>& found) const {
   Probe probe;
-  const std::vector<Location> found = one_body(*model_, locator_.at(place), active_, group);
+  found = one_body(*model_, locator_.at(place), active_, group);
   if (found.empty()) return probe;
   const Location& first = found.front();
   probe.group = static_cast<int>(first.group);
   probe.element = first.element;
   const int* nodes = model_->groups[first.group].nodes_of(first.element);
   for (std::size_t i = 0; i < first.N.size(); ++i) probe.nodes.push_back({nodes[i], first.N[i]});
+  return probe;
+}
+
+Probe ProbeMaker::at(const Vector2& place, int group) const {
+  std::vector<Location> found;
+  Probe probe = blank_at(place, group, found);
   for (const Location& location : found) add_stress(probe, location, 1.0 / static_cast<double>(found.size()));
   return probe;
+}
+
+Probe ProbeMaker::own_at(const Vector2& place, int group) const {
+  std::vector<Location> found;
+  Probe probe = blank_at(place, group, found);
+  for (const Location& location : found) add_sampled(probe, location, 1.0 / static_cast<double>(found.size()));
+  return probe;
+}
+
+bool ProbeMaker::is_surrounded(const Probe& probe) const {
+  const auto g = static_cast<std::size_t>(probe.group);
+  const Group& group = model_->groups[g];
+  const int* nodes = group.nodes_of(probe.element);
+  const Patches& of_zone = patches(zone_[g]);
+  for (std::size_t c = 0; c < group.element->edges().size(); ++c)
+    if (of_zone.inside(nodes[c])) return true;
+  return false;
 }
 
 void ProbeMaker::add_stress(Probe& probe, const Location& location, double part) const {
   const Group& group = model_->groups[location.group];
   const Element& element = *group.element;
   const std::size_t corners = element.edges().size();
-  if (element.traits().degree >= kOwnDegree && group.entry->square()) return add_own(probe, location, part);
+  if (uses_own_stress(group)) return add_own(probe, location, part);
   const int* nodes = group.nodes_of(location.element);
   const Patches& of_zone = patches(zone_[location.group]);
   Eigen::Matrix2Xd x;
@@ -99,6 +127,34 @@ void ProbeMaker::add_own(Probe& probe, const Location& location, double part) co
     probe.points.push_back(
         {location.group, static_cast<std::size_t>(location.element) * points + p, part * weight});
   }
+}
+
+// The polynomial of the parent shape through the best places, where these are others than the points: 1, x, y and xy of four.
+void ProbeMaker::add_sampled(Probe& probe, const Location& location, double part) const {
+  const Group& group = model_->groups[location.group];
+  const Element& element = *group.element;
+  const Eigen::MatrixXd map = sample_map(element);
+  const Eigen::Index samples = map.rows(), points = element.traits().points;
+  if (samples != 1 && samples != 3 && samples != 4) return add_own(probe, location, part);
+  Eigen::Matrix2Xd x, at(2, points);
+  element_coordinates(model_->mesh, group, location.element, x);
+  for (int p = 0; p < points; ++p) at.col(p) = element.position(x, p);
+  const Eigen::Matrix2Xd places = at * map.transpose();
+  const auto terms = [samples](const Vector2& parent) -> Eigen::VectorXd {
+    return Eigen::Vector4d(1.0, parent.x(), parent.y(), parent.x() * parent.y()).head(samples);
+  };
+  Eigen::MatrixXd V(samples, samples);
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    Vector2 parent;
+    std::vector<double> N;
+    if (!find_parent(group, x, places.col(i), parent, N)) return add_own(probe, location, part);
+    V.col(i) = terms(parent);
+  }
+  const Eigen::VectorXd of_samples = dense_matrix::smallest_solution(V, terms(location.parent), 1e-12);
+  const Eigen::VectorXd of_points = part * (map.transpose() * of_samples);
+  const auto first = static_cast<std::size_t>(location.element) * static_cast<std::size_t>(points);
+  for (Eigen::Index p = 0; p < points; ++p)
+    probe.points.push_back({location.group, first + static_cast<std::size_t>(p), of_points(p)});
 }
 
 // The value at a place of the polynomial that fits the samples best: linear in them, so a weight a point.

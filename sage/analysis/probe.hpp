@@ -47,10 +47,21 @@ class ProbeMaker {
   // Where several elements of one body meet, the mean of their answers; where bodies meet (zones, sides of an
   // interface), the first group of the deck answers, or `group` where it is not negative.
   Probe at(const Vector2& place, int group = -1) const;
+  // The same with the stress that each element has by itself: between the places where it is most accurate, without its
+  // neighbours.
+  Probe own_at(const Vector2& place, int group = -1) const;
+  // Whether a corner of the probe's element has elements of its zone all around.  A body of one row of elements has none, and
+  // its patches can't hold a stress that changes across the row at a rate that changes along it: there the elements' own
+  // stress is the better one.
+  bool is_surrounded(const Probe& probe) const;
+  // Whether both are the same in elements of this group.
+  static bool uses_own_stress(const Group& group);
 
  private:
+  Probe blank_at(const Vector2& place, int group, std::vector<Location>& found) const;
   void add_stress(Probe& probe, const Location& location, double part) const;
   void add_own(Probe& probe, const Location& location, double part) const;
+  void add_sampled(Probe& probe, const Location& location, double part) const;
   void add_patch(Probe& probe, std::span<const std::size_t> patch, const Vector2& place, double part) const;
   const Patches& patches(int zone) const;
 

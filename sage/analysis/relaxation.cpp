@@ -74,11 +74,11 @@ bool Relaxation::try_step(double from, double to) {
   form_residual();
   const Eigen::VectorXd& coupling = run_.tangent().coupling();
   for (int eq = 0; eq < assembly.equations(); ++eq)
-    residual_[eq] -= (to - from) * coupling[assembly.dof_of(eq)];
+    residual_[eq] -= (to - from) * assembly.numbering().force(coupling, eq);
   acceleration_.resize(residual_.size());
   run_.tangent().solve(residual_, acceleration_, run_.result.work);
   state.du = (to - from) * run_.system.rate();
-  for (int eq = 0; eq < assembly.equations(); ++eq) state.du[assembly.dof_of(eq)] += acceleration_[eq];
+  for (int eq = 0; eq < assembly.equations(); ++eq) assembly.numbering().move(state.du, eq, acceleration_[eq]);
   ++passes_;
   if (assembly.evaluate(state.du, nullptr) == Outcome::cut_step) return false;
   form_residual();
@@ -122,7 +122,7 @@ bool Relaxation::advance() {
   run_.set_step_time(to_, 0.0);
   for (int trial = 0;; ++trial) {
     state.du.setZero();
-    for (int eq = 0; eq < assembly.equations(); ++eq) state.du[assembly.dof_of(eq)] = velocity_[eq];
+    for (int eq = 0; eq < assembly.equations(); ++eq) assembly.numbering().set(state.du, eq, velocity_[eq]);
     ++passes_;
     if (assembly.evaluate(state.du, nullptr) == Outcome::ok) break;
     if (trial == kTrials) return false;
@@ -165,11 +165,11 @@ void Relaxation::form_residual() {
   residual_.resize(assembly.equations());
   double sum = 0.0, loads = 0.0;
   for (int eq = 0; eq < assembly.equations(); ++eq) {
-    const int dof = assembly.dof_of(eq);
-    residual_[eq] = run_.state.target[dof] - f[dof];
-    if (dof >= displacements) continue;
+    const double load = assembly.numbering().force(run_.state.target, eq);
+    residual_[eq] = load - assembly.numbering().force(f, eq);
+    if (assembly.dof_of(eq) >= displacements) continue;
     sum += residual_[eq] * residual_[eq];
-    loads += run_.state.target[dof] * run_.state.target[dof];
+    loads += load * load;
   }
   const double scale = std::max(assembly.force_scale(0), std::sqrt(loads));
   force_ = scale > 0.0 ? std::sqrt(sum) / scale : 0.0;

@@ -101,6 +101,24 @@ ElementEquations StageGroups::element_equations() const {
   return list;
 }
 
+ElementCombinations StageGroups::combine(ElementEquations& list) const {
+  ElementCombinations all;
+  if (!equations_.combine()) return all;
+  std::vector<int> dofs;
+  int* own = list.equations.data();
+  for (const GroupData& data : groups_) {
+    if (!in_system(data)) continue;
+    for (int e = 0; e < data.group->elements(); ++e) {
+      const ElementDofs of_element = data.dofs_of(e);
+      dofs.clear();
+      for (std::size_t i = 0; i < of_element.size(); ++i) dofs.push_back(of_element[i]);
+      all.add(equations_, dofs, own);
+      own += dofs.size();
+    }
+  }
+  return all;
+}
+
 void StageGroups::exchange(Archive& archive, bool before_step) {
   for (GroupData& data : groups_) exchange_states(data, archive, before_step);
 }

@@ -27,10 +27,13 @@ class StageGroups {
   int equations() const { return equations_.count(); }
   int equation_of(int dof) const { return equations_.of(dof); }
   int dof_of(int equation) const { return equations_.dof(equation); }
+  const Equations& numbering() const { return equations_; }
   // False: no active element has the node of this dof.
   bool in_use(int dof) const { return equations_.in_use(dof); }
   // Of the elements of the system.
   virtual ElementEquations element_equations() const;
+  // ... whose matrices are combined before they go there; `list` is without the equations that others stand for.
+  ElementCombinations combine(ElementEquations& list) const;
 
   // A group is activated: free of stress, with its first history.
   void reset_group(std::size_t group);

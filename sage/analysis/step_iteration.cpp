@@ -40,10 +40,9 @@ Outcome StepIteration::form_tangent() {
 
 void StepIteration::form_residual() {
   const Eigen::VectorXd& f = assembly.internal_force();
-  for (int eq = 0; eq < assembly.equations(); ++eq) {
-    const int dof = assembly.dof_of(eq);
-    residual[eq] = target[dof] - f[dof];
-  }
+  const Equations& equations = assembly.numbering();
+  for (int eq = 0; eq < equations.count(); ++eq)
+    residual[eq] = equations.force(target, eq) - equations.force(f, eq);
 }
 
 // The run needs most memory while it factorises: the correction is allocated after that.
@@ -57,7 +56,7 @@ void StepIteration::solve() {
 }
 
 void StepIteration::move(double factor) {
-  for (int eq = 0; eq < assembly.equations(); ++eq) du[assembly.dof_of(eq)] += factor * correction[eq];
+  for (int eq = 0; eq < assembly.equations(); ++eq) assembly.numbering().move(du, eq, factor * correction[eq]);
 }
 
 void StepIteration::advance() {
@@ -93,7 +92,8 @@ bool StepIteration::start_from_committed() {
     form_residual();
   }
   const Eigen::VectorXd& coupling = tangent.coupling();
-  for (int eq = 0; eq < assembly.equations(); ++eq) residual[eq] -= rate_part * coupling[assembly.dof_of(eq)];
+  for (int eq = 0; eq < assembly.equations(); ++eq)
+    residual[eq] -= rate_part * assembly.numbering().force(coupling, eq);
   return true;
 }
 
@@ -109,12 +109,12 @@ bool StepIteration::start_from_du(const Eigen::VectorXd& rate) {
 void StepIteration::take_prescribed(const Eigen::VectorXd& rate) {
   const Eigen::VectorXd free = free_part_of_du();
   du = rate_part * rate;
-  for (int eq = 0; eq < assembly.equations(); ++eq) du[assembly.dof_of(eq)] = free[eq];
+  for (int eq = 0; eq < assembly.equations(); ++eq) assembly.numbering().set(du, eq, free[eq]);
 }
 
 Eigen::VectorXd StepIteration::free_part_of_du() const {
   Eigen::VectorXd free(assembly.equations());
-  for (int eq = 0; eq < assembly.equations(); ++eq) free[eq] = du[assembly.dof_of(eq)];
+  for (int eq = 0; eq < assembly.equations(); ++eq) free[eq] = assembly.numbering().unknown(du, eq);
   return free;
 }
 

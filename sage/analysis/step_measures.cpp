@@ -23,7 +23,7 @@ StepMeasures::StepMeasures(const Assembly& assembly, const Tangent& tangent, con
 double StepMeasures::load_size(int field) const {
   double sum = 0.0;
   const ByField::Piece own = fields_.equations_of(field);
-  for (int eq = own.begin; eq < own.end; ++eq) sum += std::pow(target_[assembly_.dof_of(eq)], 2);
+  for (int eq = own.begin; eq < own.end; ++eq) sum += std::pow(assembly_.numbering().force(target_, eq), 2);
   if (field == 0)
     for (int dof : assembly_.eliminated().dofs()) sum += std::pow(target_[dof], 2);
   return std::sqrt(sum);

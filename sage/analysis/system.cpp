@@ -65,10 +65,14 @@ void System::analyse() {
   std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
   if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get()))
     placed->set_places(places_of(model_.mesh, *assembly_));
-  tangent_.analyse(std::move(solver), assembly_->equations(), assembly_->element_equations(), work_);
+  ElementEquations elements = assembly_->element_equations();
+  ElementCombinations combinations = assembly_->combine(elements);
+  tangent_.analyse(std::move(solver), assembly_->equations(), std::move(elements), std::move(combinations),
+                   work_);
   if (assembly_->equations() >= kManyEquations) return_freed_memory();
   held_before_ = activity_.held;
   groups_before_ = activity_.group;
+  turned_before_ = activity_.turned;
 }
 
 // A group that has been active before is activated again without stress and history.
@@ -87,6 +91,7 @@ void System::open_stage(int s) {
   const Stage& stage = model_.stages[s];
   rate_ = prescribed_rate(stage, activity_.dof_map);
   enter(stage);
+  add_turned_rate(stage, activity_, rate_);
   if (stage.pores != PoreWater::flows)
     for (const auto& [dof, supported] : activity_.pores) rate_[dof] = 0.0;
   const bool eliminated_before = !assembly_->eliminated().dofs().empty();
@@ -100,7 +105,8 @@ void System::open_stage(int s) {
   tangent_.set_rate(rate_);
   exits_.enter(model_, activity_, s);
   const bool same_pattern = !eliminated_before && assembly_->eliminated().dofs().empty() &&
-                            held_before_ == activity_.held && groups_before_ == activity_.group;
+                            held_before_ == activity_.held && groups_before_ == activity_.group &&
+                            turned_before_ == activity_.turned;
   if (!same_pattern) analyse();
   const bool serves = tangent_.constant() && tangent_.factorised() && rate_.isZero(0.0);
   if (!serves) tangent_.forget();
@@ -130,6 +136,7 @@ void System::take_histories(const Stage& stage, double from, double to) {
         if (f.code[c] == FixityCode::fixed)
           rate_[DofMap::displacement(f.node, static_cast<int>(c))] =
               f.history.empty() ? f.value[c] : growth(f) * f.value[c];
+    add_turned_rate(stage, activity_, rate_);
     changed = true;
   }
   for (const FieldFixity& f : stage.field_fixities) {

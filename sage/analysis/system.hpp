@@ -69,6 +69,7 @@ class System {
   Eigen::VectorXd rate_;
   Tangent tangent_;
   std::vector<char> held_before_, groups_before_, lived_;
+  std::vector<TurnedNode> turned_before_;
   struct Last {
     double smallest_pivot = -1.0;
     DigitsReport digits;

@@ -8,12 +8,13 @@
 namespace sage {
 
 void Tangent::analyse(std::unique_ptr<LinearSolver> solver, int equations, ElementEquations elements,
-                      WorkCounters& work) {
+                      ElementCombinations combinations, WorkCounters& work) {
   const Profile::Scope scope(work.profile, phase::kNumbering);
   ++work.analyses;
   state_ = State::empty;
   solver_ = std::move(solver);
-  parallel_ = dynamic_cast<ParallelAssembly*>(solver_.get());
+  combinations_ = std::move(combinations);
+  parallel_ = combinations_.empty() ? dynamic_cast<ParallelAssembly*>(solver_.get()) : nullptr;
   elastic_.analyse(elements);
   sizes_.take(dynamic_cast<const KeptMatrix*>(solver_.get()), equations);
   solver_->analyse(equations, std::move(elements));

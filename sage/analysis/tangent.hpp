@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sage/analysis/elastic_matrices.hpp"
+#include "sage/analysis/equations.hpp"
 #include "sage/analysis/group_data.hpp"
 #include "sage/analysis/matrix_sizes.hpp"
 #include "sage/analysis/records.hpp"
@@ -26,7 +27,7 @@ class Tangent {
 
   // A new pattern of equations, and a solver for it.
   void analyse(std::unique_ptr<LinearSolver> solver, int equations, ElementEquations elements,
-               WorkCounters& work);
+               ElementCombinations combinations, WorkCounters& work);
   // rate: displacement of every prescribed dof over the stage, for coupling().  It must stay where it is.
   void set_rate(const Eigen::VectorXd& rate) {
     rate_ = &rate;
@@ -59,6 +60,7 @@ class Tangent {
   Outcome assemble(bool all_kept, Elements elements, Kept kept);
   // From within: the element's matrix, column-major; couple() too, where one of its dofs is prescribed.
   void add(int element, const double* K) {
+    if (combinations_.changes(element)) K = combinations_.combine(element, K);
     solver_->add(element, K);
     if (elastic_.is_taking()) elastic_.keep(element, K);
   }
@@ -67,7 +69,10 @@ class Tangent {
     if (parallel_ != nullptr) parallel_->add_part(some, part, parts);
     for (int e = 0; part == 0 && e < some.count; ++e) {
       const double* const K = some.K + static_cast<std::size_t>(e) * some.size;
-      if (parallel_ == nullptr) solver_->add(some.first + e, K);
+      if (parallel_ == nullptr) {
+        add(some.first + e, K);
+        continue;
+      }
       if (elastic_.is_taking()) elastic_.keep(some.first + e, K);
     }
   }
@@ -98,7 +103,8 @@ class Tangent {
   State state_ = State::empty;
   bool changed_ = true;
   std::unique_ptr<LinearSolver> solver_;
-  ParallelAssembly* parallel_ = nullptr;  // nullptr: the solver does not offer it
+  ParallelAssembly* parallel_ = nullptr;  // nullptr: the solver does not offer it, or dofs are combined
+  ElementCombinations combinations_;
   const Eigen::VectorXd* rate_ = nullptr;
   Eigen::VectorXd coupling_;
   ElasticMatrices elastic_;

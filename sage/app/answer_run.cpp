@@ -21,6 +21,8 @@ const char* kind_word(ReportKind kind) {
       return "discharge";
     case ReportKind::uplift:
       return "uplift";
+    case ReportKind::section:
+      return "section";
   }
   return "";
 }

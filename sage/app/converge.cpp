@@ -146,10 +146,13 @@ struct Quantity {
     largest.push_back(now.largest);
     around.push_back(local);
   }
-  // Displacements and heads converge by themselves; their derivatives do so around the point, and at it by chance.
+  // Displacements, heads and the forces of sections converge by themselves; the derivatives of a point do so around it, and at
+  // it by chance.
   convergence::Around errors() const {
     const std::string column = name.substr(name.find('.') + 1);
-    return {around, column != "ux" && column != "uy" && column != "head" && column != "pressure_head"};
+    const bool itself = column == "ux" || column == "uy" || column == "head" || column == "pressure_head" ||
+                        column.ends_with("_force") || column.ends_with("_moment");
+    return {around, !itself};
   }
   Limit limit(MeshSequence sequence) const { return convergence::limit_of(values, sequence, errors()); }
   Limit limit_after(std::size_t meshes, MeshSequence sequence) const {
@@ -468,6 +471,14 @@ MeshSequence ConvergenceStudy::choose_sequence() {
              "--formulation are not used",
              "S909");
   if (sequence.kind == MeshSequence::halving) return sequence;
+  if (first.combines_dofs()) {
+    say_note(
+        request_.deck,
+        "the deck's own elements are halved: which corners are singular is known for supports along x and y "
+        "alone",
+        "S403");
+    return halving(first);
+  }
   const bool coarsen = build.coarsen;
   if (!coarsen) {
     BuildOptions coarse = build;

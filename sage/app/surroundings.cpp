@@ -12,6 +12,7 @@
 #include "sage/model/locking.hpp"
 #include "sage/record/report.hpp"
 #include "sage/record/sampler.hpp"
+#include "sage/record/section_forces.hpp"
 
 namespace sage::app {
 
@@ -143,6 +144,41 @@ std::vector<LocalErrors::Change> changes_in(const std::vector<const FieldEntry*>
 
 }  // namespace
 
+namespace {
+
+// Forces along the cut of a section and along others beside it, by steps of a tenth of its length.  They may agree on two
+// meshes by chance at one place, as stresses at a point may.
+void read_cuts(const Model& model, const Solution& solution, const Report& report, Surroundings& here) {
+  constexpr int kSteps = 5;
+  const ProbeMaker probes(model, solution.activity->group);
+  const Vector2 along = report.end - report.place;
+  const std::size_t count = model.geometry == Geometry::axisymmetric ? 5 : 3;
+  for (int step = 0; step <= 2 * kSteps; ++step) {
+    Report beside = report;
+    const Vector2 shift = 0.1 * (step <= kSteps ? step : kSteps - step) * Vector2(along.y(), -along.x());
+    beside.place += shift;
+    beside.end += shift;
+    const Vector2 middle = 0.5 * (beside.place + beside.end);
+    if (model.geometry == Geometry::axisymmetric && !(middle.x() > 0.0)) continue;
+    const SectionForces f = SectionSum(model, beside, solution.activity->group, probes).forces(model, solution);
+    here.places.push_back({middle, report.group});
+    const std::vector<double> forces{f.axial, f.shear, f.moment, f.hoop, f.hoop_moment};
+    here.values.emplace_back(forces.begin(), forces.begin() + static_cast<std::ptrdiff_t>(count));
+  }
+}
+
+// The largest change of each force and moment on any of the cuts.  Cuts outside of the solids have none.
+std::vector<double> changes_of_cuts(const Surroundings& earlier, const Surroundings& now) {
+  std::vector<double> changes(now.values.front().size(), 0.0);
+  for (std::size_t p = 0; p < now.values.size(); ++p)
+    for (std::size_t k = 0; k < changes.size(); ++k)
+      if (const double change = std::abs(now.values[p][k] - earlier.values[p][k]); change > changes[k])
+        changes[k] = change;
+  return changes;
+}
+
+}  // namespace
+
 bool SurroundingsReader::wants_states(const Model& model, const StepReport& step) const {
   return is_last(model, step);
 }
@@ -155,6 +191,7 @@ void SurroundingsReader::on_increment(const Model& model, const StepReport& step
   std::optional<Locator> locator;
   for (std::size_t i = 0; i < model.reports.size(); ++i) {
     const Report& report = model.reports[i];
+    if (report.kind == ReportKind::section) read_cuts(model, solution, report, found[i]);
     if (report.kind != ReportKind::point) continue;
     if (!locator) locator.emplace(model, kind);
     const std::vector<Location> holders =
@@ -254,6 +291,11 @@ double LocalErrors::halving_error(const Change& now, const Change* before) const
 }
 
 std::vector<double> LocalErrors::errors_of(const Model& model, std::size_t report, const Surroundings& now) {
+  if (model.reports[report].kind == ReportKind::section) {
+    if (report < earlier_.size() && earlier_[report].values.size() == now.values.size())
+      return changes_of_cuts(earlier_[report], now);
+    return std::vector<double>(now.values.front().size(), kUnknown);
+  }
   const FieldTable table = fields_of(model);
   const Columns columns = columns_of(point_report_fields(model, table, model.reports[report]));
   const std::size_t count = columns.field.size();
@@ -283,7 +325,7 @@ std::vector<double> LocalErrors::after(const Model& model, const std::vector<Rep
     if (found[i].places.empty()) continue;
     const std::vector<double> own = errors_of(model, i, found[i]);
     const std::vector<ReportColumn> columns = report_columns(model, model.reports[i]);
-    for (std::size_t k = 0; k < columns.size(); ++k)
+    for (std::size_t k = 0; k < std::min(columns.size(), own.size()); ++k)
       for (std::size_t c = 0; c < components.size(); ++c)
         if (components[c].name == "report" + std::to_string(i + 1) + "." + columns[k].name) errors[c] = own[k];
   }

@@ -11,7 +11,8 @@
 
 namespace sage::app {
 
-// Of a point report at the end of a run; empty where nothing is active at the point.
+// Of a point report at the end of a run; empty where nothing is active at the point.  Of a section report: places are the
+// middles of its cut and of others beside it, values their forces and moments.
 struct Surroundings {
   struct Place {
     Vector2 at = Vector2::Zero();
@@ -40,13 +41,13 @@ class SurroundingsReader final : public Observer {
   const std::vector<Surroundings>* earlier_;
 };
 
-// Errors of the numbers of point reports, mesh by mesh.
+// Errors of the numbers of point and section reports, mesh by mesh.
 class LocalErrors {
  public:
   explicit LocalErrors(convergence::MeshSequence sequence) : sequence_(sequence) {}
 
   const std::vector<Surroundings>& earlier() const { return earlier_; }
-  // After the next mesh: an error for each of its components, NaN where it is not of a point.
+  // After the next mesh: an error for each of its components, NaN where it is of no point or section.
   std::vector<double> after(const Model& model, const std::vector<ReportComponent>& components,
                             std::vector<Surroundings> found);
 

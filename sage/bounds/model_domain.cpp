@@ -78,6 +78,8 @@ class GroundMaker {
   bool is_ground(std::size_t g) const { return active(g) && m_.groups[g].solid() && !m_.groups[g].overlay; }
 
   void check_groups() const {
+    if (m_.combines_dofs())
+      reject("S369", {}, "bounds know supports along x and y alone, without supports at an angle and ties");
     if (m_.geometry == Geometry::axisymmetric)
       reject("S570", {}, "bounds are for plane strain; this model is axisymmetric");
     if (m_.large_strain)

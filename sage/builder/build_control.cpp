@@ -15,12 +15,13 @@ namespace {
 bool has_load(const Stage& stage) {
   const auto releases = [](const Fixity& f) { return std::ranges::count(f.code, FixityCode::released) > 0; };
   return !stage.loads.empty() || !stage.pressures.empty() || !stage.births.empty() || !stage.deaths.empty() ||
-         !stage.gravity.isZero(0.0) || std::ranges::any_of(stage.fixities, releases);
+         !stage.gravity.isZero(0.0) || std::ranges::any_of(stage.fixities, releases) ||
+         std::ranges::any_of(stage.turned_fixities, releases);
 }
 
 bool moves_supports(const Stage& stage) {
-  return std::ranges::any_of(stage.fixities,
-                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
+  const auto moves = [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; };
+  return std::ranges::any_of(stage.fixities, moves) || std::ranges::any_of(stage.turned_fixities, moves);
 }
 
 // Why the stage cannot be controlled; empty = it can.

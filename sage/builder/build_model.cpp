@@ -146,6 +146,39 @@ void read_point(Builder& b, const CardView& card, Report& report) {
   report.place = {place.real("x"), place.real("y")};
 }
 
+// From the point card behind the report card, which has both ends of the cut.
+void read_section(Builder& b, const CardView& card, Report& report) {
+  read_stage(b, card, report);
+  const int group = card.integer("group");
+  if (group != 0) {
+    const auto found = b.group_index.find(group);
+    if (found == b.group_index.end())
+      b.group_missing(card.where("group"), group);
+    else
+      report.group = found->second;
+    if (!b.layer_pieces.empty())
+      b.error("S637", card.where("group"),
+              "the initial stresses of this model divide groups into layers; a section can't be one of group " +
+                  std::to_string(group) + " alone. Leave the group out, and end the cut where the group ends");
+  }
+  note_unused(b, card, {"first", "last", "step", "height", "area", "cell_pressure"},
+              "a section report takes its cut from the point card behind it");
+  const std::vector<CardView> cuts = b.deck.all("point", card);
+  if (cuts.empty() || (cuts.front().blank("end_x") && cuts.front().blank("end_y"))) {
+    b.error(
+        "S242", card.where(),
+        "a section report needs both ends of its cut: x, y, end_x and end_y on a point card behind it, or from "
+        "and to of a model file");
+    return;
+  }
+  const CardView& cut = cuts.front();
+  report.where = cut.where();
+  report.name = b.text(cut, "name");
+  for (const char* field : {"x", "y", "end_x", "end_y"}) b.usable(cut, field, cut.real(field));
+  report.place = {cut.real("x"), cut.real("y")};
+  report.end = {cut.real("end_x"), cut.real("end_y")};
+}
+
 // Reports that the options ask for.
 void add_requested_points(Builder& b) {
   for (const PointRequest& request : b.options.points) {
@@ -184,15 +217,18 @@ void build_reports(Builder& b) {
     Report report;
     report.where = card.where();
     const int kind = card.integer("kind", 1);
-    if (kind < 1 || kind > 5) {
+    if (kind < 1 || kind > 6) {
       b.error("S210", card.where("kind"),
               "report kind " + std::to_string(kind) +
-                  " is unknown; 1 triaxial, 2 nodes, 3 a point, 4 a discharge, 5 uplift");
+                  " is unknown; 1 triaxial, 2 nodes, 3 a point, 4 a discharge, 5 uplift, 6 a section");
       continue;
     }
     report.kind = static_cast<ReportKind>(kind);
-    if (report.kind == ReportKind::point) {
-      read_point(b, card, report);
+    if (report.kind == ReportKind::point || report.kind == ReportKind::section) {
+      if (report.kind == ReportKind::point)
+        read_point(b, card, report);
+      else
+        read_section(b, card, report);
       b.model.reports.push_back(std::move(report));
       continue;
     }

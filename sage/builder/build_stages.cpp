@@ -165,9 +165,40 @@ bool read_exit(Builder& b, const CardView& card, int field, std::vector<Exit>* o
   return true;
 }
 
+// The codes of x are those along the line, the codes of y those normal to it.  By quarters of a turn the one becomes the other.
+void read_turned_fixity(Builder& b, const CardView& card, int field, Fixity fixity, std::vector<Fixity>& out,
+                        std::vector<TurnedFixity>& out_turned) {
+  constexpr double kQuarter = 90.0;
+  const double angle = card.real("angle");
+  if (!b.usable(card, "angle", angle)) return;
+  if (std::abs(angle) > 360.0)
+    return b.error("S367", card.where("angle"), "the angle of a support must lie between -360 and 360 degrees");
+  if (field > 0)
+    return b.error("S367", card.where("angle"),
+                   "an angle is for supports of displacements; the field " + b.text(card, "unknown") +
+                       " has no direction");
+  if (!card.blank("history"))
+    return b.error("S367", card.where("history"),
+                   "a support with an angle can't follow a table of time; give its displacements by stages");
+  const double quarters = std::floor(angle / kQuarter);
+  for (int i = 0; i < static_cast<int>(quarters) + 4; ++i) {
+    fixity.code = {fixity.code[1], fixity.code[0]};
+    fixity.value = {0.0 - fixity.value[1], fixity.value[0]};
+  }
+  const double rest = angle - kQuarter * quarters;
+  for (const int node : node_range(b, card)) {
+    fixity.node = node;
+    if (rest == 0.0)
+      out.push_back(fixity);
+    else
+      out_turned.push_back({fixity, rest});
+  }
+}
+
 // exits: of a stage; nullptr before the first.  duration: of the stage, else 0.
 void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, double duration,
-                 std::vector<Fixity>& out, std::vector<FieldFixity>& out_fields) {
+                 std::vector<Fixity>& out, std::vector<TurnedFixity>& out_turned,
+                 std::vector<FieldFixity>& out_fields) {
   const bool in_stage = exits != nullptr;
   const int field = read_unknown(b, card);
   if (field < 0 || read_exit(b, card, field, exits)) return;
@@ -201,6 +232,7 @@ void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, dou
   for (std::size_t c = 0; c < 2; ++c)
     if (!in_stage && fixity.code[c] == FixityCode::released)
       b.error("S233", card.where(codes[c]), "only a stage can release a fixity (code -1)");
+  if (card.real("angle") != 0.0) return read_turned_fixity(b, card, field, fixity, out, out_turned);
   if (field > 0) return read_field_fixity(b, card, field, fixity, out_fields);
   fixity.history = read_history_of_time(b, card, field, duration);
   for (int node : node_range(b, card)) {
@@ -697,7 +729,7 @@ void check_early_end(Builder& b, const CardView& card, const Stage& stage) {
   const auto changes = [](const FieldFixity& f) { return f.value != 0.0; };
   if (stage.loads.empty() && stage.field_loads.empty() && stage.pressures.empty() && stage.births.empty() &&
       stage.deaths.empty() && stage.gravity.isZero(0.0) && std::ranges::none_of(stage.fixities, moves) &&
-      std::ranges::none_of(stage.field_fixities, changes))
+      std::ranges::none_of(stage.turned_fixities, moves) && std::ranges::none_of(stage.field_fixities, changes))
     return;
   b.error("S579", card.where(stage.end_degree > 0.0 ? "end_degree" : "end_pressure"),
           "a stage that ends by degree or pressure must not change loads, supports or groups, since these "
@@ -745,7 +777,8 @@ Stage read_stage(Builder& b, const CardView& card, int number) {
         "S210", card.where("reset_displacements"),
         "code " + std::to_string(reset) + " is unknown; 0 displacements go on, 1 they count from this stage");
   for (const CardView& c : b.deck.all("fixity", card))
-    read_fixity(b, c, &stage.exits, stage.duration, stage.fixities, stage.field_fixities);
+    read_fixity(b, c, &stage.exits, stage.duration, stage.fixities, stage.turned_fixities,
+                stage.field_fixities);
   for (const CardView& c : b.deck.all("load", card))
     read_load(b, c, stage.loads, stage.field_loads, stage.duration);
   for (const CardView& c : b.deck.all("pressure", card)) read_edge_action(b, c, stage);
@@ -812,7 +845,7 @@ void build_stages(Builder& b) {
   b.dof_map = DofMap(b.model);
   for (const CardView& card : b.deck.all("fixity"))
     if (outside_stages(b.deck, card))
-      read_fixity(b, card, nullptr, 0.0, b.model.fixities, b.model.field_fixities);
+      read_fixity(b, card, nullptr, 0.0, b.model.fixities, b.model.turned_fixities, b.model.field_fixities);
   for (const CardView& card : b.deck.all("initial"))
     if (outside_stages(b.deck, card)) read_initial(b, card, false, b.model.initials);
   int number = 0;

@@ -85,7 +85,8 @@ Stage stage_of(Builder& b, int k, const Factor& factor, std::size_t groups, cons
   stage.number = k + 1;
   stage.where = factor.where;
   stage.increments = model.stages[0].increments;
-  stage.fixities = model.stages[0].fixities;         // displacements are those of a stage alone
+  stage.fixities = model.stages[0].fixities;  // displacements are those of a stage alone
+  stage.turned_fixities = model.stages[0].turned_fixities;
   for (EdgeLoad load : model.stages[0].pressures) {  // those of the body before end with it
     load.group += first_group;
     stage.pressures.push_back(load);

@@ -68,7 +68,9 @@ void check_inactive(Builder& b) {
     IdleCards loads, displacements, pressures;
     for (const NodalLoad& load : stage.loads)
       if (idle_node(load.node) && !load.force.isZero(0.0)) add(loads, load.line, number_of(load.node));
-    for (const Fixity& f : stage.fixities) {
+    std::vector<Fixity> fixities = stage.fixities;
+    fixities.insert(fixities.end(), stage.turned_fixities.begin(), stage.turned_fixities.end());
+    for (const Fixity& f : fixities) {
       const auto moves = [&](std::size_t c) { return f.code[c] == FixityCode::fixed && f.value[c] != 0.0; };
       if (idle_node(f.node) && (moves(0) || moves(1))) add(displacements, f.line, number_of(f.node));
     }
@@ -78,8 +80,9 @@ void check_inactive(Builder& b) {
     }
     for (std::size_t i = 0; i < model.reports.size(); ++i) {
       const Report& report = model.reports[i];
-      if (report.kind == ReportKind::point || stage.number <= report.stage ||
-          !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) || !reported.insert(i).second)
+      if (report.kind == ReportKind::point || report.kind == ReportKind::section ||
+          stage.number <= report.stage || !std::all_of(report.nodes.begin(), report.nodes.end(), idle_node) ||
+          !reported.insert(i).second)
         continue;
       b.warning("S332", report.where,
                 "stage " + std::to_string(stage.number) +

@@ -175,6 +175,7 @@ void note_unused_nodes(Builder& b) {
   };
   for (const Stage& stage : model.stages) {
     for (const Fixity& f : stage.fixities) refuse(f);
+    for (const TurnedFixity& f : stage.turned_fixities) refuse(f);
     for (const NodalLoad& load : stage.loads)
       if (!used[load.node])
         b.error(
@@ -281,7 +282,8 @@ void check_supports(Builder& b) {
   Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
     activity.enter(stage);
-    const bool changed = !stage.births.empty() || !stage.deaths.empty() || !stage.fixities.empty();
+    const bool changed = !stage.births.empty() || !stage.deaths.empty() || !stage.fixities.empty() ||
+                         !stage.turned_fixities.empty();
     if (!changed && &stage != &b.model.stages.front()) continue;
     const int before = b.problems.errors();
     check_supports_of(b, stage, activity);

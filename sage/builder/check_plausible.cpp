@@ -380,6 +380,8 @@ void note_null_stage(Builder& b, const Stage& stage) {
              !stage.deaths.empty() || !stage.initials.empty() || stage.gravity.norm() > 0.0;
   for (const Fixity& f : stage.fixities)
     for (std::size_t c = 0; c < 2; ++c) any = any || f.value[c] != 0.0 || f.code[c] == FixityCode::released;
+  for (const TurnedFixity& f : stage.turned_fixities)
+    for (std::size_t c = 0; c < 2; ++c) any = any || f.value[c] != 0.0 || f.code[c] == FixityCode::released;
   for (const FieldFixity& f : stage.field_fixities)
     any = any || f.value != 0.0 || f.code == FixityCode::released;
   any = any || !stage.field_loads.empty() || !stage.exits.empty();

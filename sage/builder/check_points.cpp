@@ -1,9 +1,10 @@
-// Places of point reports.
+// Places of point reports, and cuts of section reports.
 #include <algorithm>
 
 #include "sage/builder/builder.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/locate.hpp"
+#include "sage/model/section_cut.hpp"
 
 namespace sage::builder {
 
@@ -44,9 +45,54 @@ bool placed_from(const Model& model, const Report& report, const std::vector<Loc
   return false;
 }
 
+bool cut_from(const Model& model, const Report& report) {
+  Activity activity(model);
+  for (std::size_t s = 0; s < model.stages.size(); ++s) {
+    activity.enter(model.stages[s]);
+    if (static_cast<int>(s) >= report.stage &&
+        !cut_pieces(model, report.place, report.end, activity.group, report.group).empty())
+      return true;
+  }
+  return false;
+}
+
+// What a section report can't be computed for; empty: it can.
+std::string fault_of_section(const Model& model, const Report& report) {
+  const double radius = 0.5 * (report.place.x() + report.end.x());
+  if (!((report.end - report.place).norm() > 0.0)) return "the two ends of its cut are one place";
+  if (model.geometry == Geometry::axisymmetric && !(radius > 0.0))
+    return "its cut lies on the axis, where a unit of circumference is nothing";
+  if (model.large_strain) return "its forces are computed for small strains alone";
+  const bool on_others =
+      std::ranges::any_of(model.groups, [](const Group& group) { return group.solid() && group.overlay; });
+  if (on_others && report.group < 0) return "solids lie on one another (overlay): give the group that is cut";
+  if (report.group >= 0 && !model.groups[static_cast<std::size_t>(report.group)].solid())
+    return "group " + number_of(model, static_cast<std::size_t>(report.group)) + " has no solids";
+  return {};
+}
+
+void check_sections(Builder& b) {
+  const Model& model = b.model;
+  for (const Report& report : model.reports) {
+    if (report.kind != ReportKind::section) continue;
+    const std::string cut = "the cut from " + place_text(report.place) + " to " + place_text(report.end);
+    if (const std::string fault = fault_of_section(model, report); !fault.empty())
+      b.error("S636", report.where, "the section can't be computed: " + fault);
+    else if (cut_pieces(model, report.place, report.end, {}, report.group).empty())
+      b.error("S635", report.where,
+              cut + " meets no solid element" +
+                  (report.group < 0 ? std::string(" of the mesh")
+                                    : " of group " + number_of(model, static_cast<std::size_t>(report.group))));
+    else if (!cut_from(model, report))
+      b.warning("S638", report.where,
+                "no solid on " + cut + " is active from the report's stage on: it shows no forces");
+  }
+}
+
 }  // namespace
 
 void check_points(Builder& b) {
+  check_sections(b);
   const Model& model = b.model;
   const auto is_point = [](const Report& r) { return r.kind == ReportKind::point; };
   if (std::none_of(model.reports.begin(), model.reports.end(), is_point)) return;

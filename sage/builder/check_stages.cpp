@@ -63,6 +63,33 @@ void warn_contradictions(Builder& b, const Stage& stage) {
   }
 }
 
+// Directions that are held together may not have values that no displacement has.
+void check_turned(Builder& b, const Stage& stage, const Activity& activity) {
+  constexpr double kSame = 1e-6;
+  for (const TurnedNode& node : activity.turned) {
+    Vector2 by_xy = Vector2::Zero();
+    double largest = 0.0, contradiction = 0.0;
+    int line = 0;
+    const auto take = [&](const Fixity& f, Vector2* to) {
+      if (f.node != node.node) return;
+      line = std::max(line, f.line);
+      for (std::size_t c = 0; c < 2; ++c) {
+        if (f.code[c] != FixityCode::fixed) continue;
+        largest = std::max(largest, std::abs(f.value[c]));
+        if (to != nullptr) (*to)[static_cast<Eigen::Index>(c)] = f.value[c];
+      }
+    };
+    for (const Fixity& f : stage.fixities) take(f, &by_xy);
+    for (const TurnedFixity& f : stage.turned_fixities) take(f, nullptr);
+    if (largest == 0.0) continue;
+    held_motion(stage, node, by_xy, &contradiction);
+    if (contradiction > kSame * largest)
+      b.error("S368", b.at_line(line),
+              "stage " + std::to_string(stage.number) + ": " + node_name(b, node.node) +
+                  " is held in more than two directions, and no displacement has all of their values");
+  }
+}
+
 // Where r = 0, u_r = 0 and a circle has no length.
 class Axis {
  public:
@@ -129,7 +156,10 @@ void check_left(Builder& b) {
 }  // namespace
 
 void check_stages(Builder& b) {
+  Activity activity(b.model);
   for (const Stage& stage : b.model.stages) {
+    activity.enter(stage);
+    check_turned(b, stage, activity);
     warn_contradictions(b, stage);
     if (b.model.geometry == Geometry::axisymmetric) check_axis(b, stage);
   }

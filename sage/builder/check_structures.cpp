@@ -17,6 +17,12 @@ namespace sage::builder {
 
 namespace {
 
+// In any direction.
+bool has_support(const Activity& activity, int node) {
+  return activity.has_reaction(DofMap::displacement(node, 0)) ||
+         activity.has_reaction(DofMap::displacement(node, 1));
+}
+
 std::string node_number(const Model& model, int node) {
   return std::to_string(model.mesh.number[node]);
 }
@@ -263,8 +269,7 @@ std::map<int, Hold> holds_of(const Model& model, const Activity& activity) {
       for (const int node : group.nodes)
         if (part_of(node) >= 0) holds.at(part_of(node)).otherwise = true;
   for (int node = 0; node < model.mesh.nodes(); ++node)
-    if (part_of(node) >= 0 && (activity.holds(node, 0) || activity.holds(node, 1)))
-      holds.at(part_of(node)).otherwise = true;
+    if (part_of(node) >= 0 && has_support(activity, node)) holds.at(part_of(node)).otherwise = true;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (!active(g) || !group.interface()) continue;
@@ -359,7 +364,7 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
     for (const int node : turning.nodes) {
       const bool more = parts_at[node].size() > 1;
       shared = shared || more;
-      if (more || activity.holds(node, 0) || activity.holds(node, 1)) hangs.push_back(node);
+      if (more || has_support(activity, node)) hangs.push_back(node);
     }
     if (turning.held || !shared || hangs.size() != 1 || !reported.insert(turning.group).second) continue;
     const Group& group = model.groups[turning.group];
@@ -536,7 +541,7 @@ void check_held_structures(Builder& b) {
   for (const Stage& stage : b.model.stages) {
     activity.enter(stage);
     const bool changed = !stage.births.empty() || !stage.deaths.empty() || !stage.fixities.empty() ||
-                         !stage.field_fixities.empty();
+                         !stage.turned_fixities.empty() || !stage.field_fixities.empty();
     if (!changed && &stage != &b.model.stages.front()) continue;
     check_holds(b, stage, activity, held);
     if (b.model.geometry == Geometry::plane_strain) check_turning(b, stage, activity, turning);

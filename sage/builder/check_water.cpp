@@ -97,7 +97,8 @@ void warn_of_open_edges(Builder& b, const Activity& activity, const std::vector<
       const int node = group.nodes_of(edge.element)[i];
       const Vector2 x = b.model.mesh.x.col(node);
       below = below && water_level(*own, x.x()) > x.y() + b.model.mesh.reach;
-      held = held && (activity.holds(node, 0) || activity.holds(node, 1));
+      held = held && (activity.has_reaction(DofMap::displacement(node, 0)) ||
+                      activity.has_reaction(DofMap::displacement(node, 1)));
     }
     if (!below || held) continue;
     if (edges++ == 0) {

@@ -179,6 +179,7 @@ void InputCards::add_support(const SupportInput& support, const std::string& car
                                  {"y_value", support.y_value}};
     if (!support.unknown.empty()) fields.push_back({"unknown", 0.0, {}, support.unknown});
     if (!support.history.empty()) fields.push_back({"history", 0.0, {}, history_text(support.history)});
+    if (support.angle != 0.0) fields.push_back({"angle", support.angle});
     add(card, fields, owner);
   }
 }
@@ -250,15 +251,18 @@ void InputCards::add_report(const ReportInput& report) {
   std::vector<NewField> fields{{"kind", static_cast<double>(report.kind)},
                                {"group", static_cast<double>(report.group)},
                                {"stage", static_cast<double>(report.stage)}};
-  if (report.kind != ReportKind::point) {
+  const bool placed = report.kind == ReportKind::point || report.kind == ReportKind::section;
+  if (!placed) {
     fields.push_back({"height", report.height});
     fields.push_back({"area", report.area});
     fields.push_back({"cell_pressure", report.cell_pressure});
     for (const int node : report.nodes) fields.push_back({"nodes", static_cast<double>(node)});
   }
   const int card = add("report", fields);
-  if (report.kind != ReportKind::point) return;
+  if (!placed) return;
   std::vector<NewField> place{{"x", report.place.x()}, {"y", report.place.y()}};
+  if (report.kind == ReportKind::section)
+    place.insert(place.end(), {{"end_x", report.end.x()}, {"end_y", report.end.y()}});
   if (!report.name.empty()) place.push_back({"name", 0.0, {}, report.name});
   add("point", place, card);
 }

@@ -40,6 +40,7 @@ struct SupportInput {
   std::string unknown = {};  // another field than displacement, its code and value in x
   TimeTable history = {};    // of an excess pressure
   bool exit = false;         // of a field: water may leave at the value, none comes in (code 2)
+  double angle = 0.0;        // degrees, anticlockwise from x: x is along a line at this angle, y normal to it
 };
 
 // Added on each of the nodes in this stage.
@@ -92,8 +93,9 @@ struct ReportInput {
   int group = 0;                // of a triaxial specimen; of a point: the one that answers, 0 = the first
   int stage = 1;                // from which strains count
   double height = 0.0, area = 0.0, cell_pressure = 0.0;
-  Vector2 place = Vector2::Zero();  // of a point
-  std::string name = {};            // of a point
+  Vector2 place = Vector2::Zero();  // of a point; of a section: first end of its cut
+  std::string name = {};            // of a point or section
+  Vector2 end = Vector2::Zero();    // of a section: second end of its cut
 };
 
 struct ModelInput {

@@ -162,7 +162,7 @@ void Side::close_stage(StageState& state, const Frame& end) {
   for (int dof = 0; dof < map.displacements(); ++dof) {
     const int c = map.at(dof).component;
     state.applied[c] += (*now.external)[dof];
-    if (now.activity->held[dof]) state.reactions[c] += reaction(now, dof);
+    if (now.activity->has_reaction(dof)) state.reactions[c] += reaction(now, dof);
   }
   raise_floors(stage_of(*model_, state.stage), end);
 }

@@ -86,6 +86,14 @@ void lengthen_cards(Layout& layout) {
                "times since the start of the stage and the factor of the value that is reached then, as 0 0 2 "
                "1 10 0.5; blank = in proportion to time",
                FieldKind::text)});
+  for (const char* card : {"fixity", "stage_fixity"}) {
+    FieldSpec angle = field("angle",
+                            "angle of a line to the x axis, anticlockwise: the codes and values of x are along "
+                            "that line, those of y normal to it; blank = 0",
+                            FieldKind::real);
+    angle.unit = "deg";
+    lengthen(layout, card, "F20.0", {angle});
+  }
   lengthen(layout, "pressure", "A20,A80",
            {field("unknown",
                   "unknown: blank: a stress; excess_pressure: inflow of pore water per area and time, in the "

@@ -121,6 +121,7 @@ class Sage1Writer {
   std::vector<int> card_nodes(const Group& group, int element) const;
   void elements();
   void fixity(const Fixity& fixity, bool in_stage);
+  void fixity(const TurnedFixity& fixity, bool in_stage);
   void fixity(const FieldFixity& fixity, bool in_stage);
   void unknown(int field, const TimeTable& history);
   void end_with_table(const TimeTable& history);
@@ -217,17 +218,18 @@ void Sage1Writer::control(std::size_t reports) {
   std::size_t elements = 0;
   for (const Group& group : model_.groups) elements += static_cast<std::size_t>(group.elements());
   const auto nodes = static_cast<std::size_t>(model_.mesh.given_nodes());
-  const std::size_t counts[] = {nodes,
-                                0,
-                                given_materials(),
-                                static_cast<std::size_t>(std::count(folded_.begin(), folded_.end(), 0)),
-                                elements,
-                                given(model_.fixities) + given(model_.field_fixities),
-                                of_groups(model_.initials),
-                                model_.stages.size(),
-                                reports,
-                                nodes,
-                                elements};
+  const std::size_t counts[] = {
+      nodes,
+      0,
+      given_materials(),
+      static_cast<std::size_t>(std::count(folded_.begin(), folded_.end(), 0)),
+      elements,
+      given(model_.fixities) + given(model_.turned_fixities) + given(model_.field_fixities),
+      of_groups(model_.initials),
+      model_.stages.size(),
+      reports,
+      nodes,
+      elements};
   const std::size_t waters = model_.water.size();
   heading(model_.large_strain ? "* geom solv node fill matl grup elem fixi init stag rept nnod nele watr st"
                               : "* geom solv node fill matl grup elem fixi init stag rept nnod nele");
@@ -349,6 +351,19 @@ void Sage1Writer::fixity(const Fixity& fixity, bool in_stage) {
   end_with_table(fixity.history);
 }
 
+void Sage1Writer::fixity(const TurnedFixity& fixity, bool in_stage) {
+  if (!is_given(fixity.node)) return;
+  if (!wide_) throw TooWide{"of the angle of a support"};
+  integer(node_number(fixity.node));
+  two_zeros();
+  for (FixityCode code : fixity.code)
+    integer(code == FixityCode::fixed ? 1 : code == FixityCode::released ? -1 : 0);
+  for (double value : fixity.value) in_stage ? real(value) : blank_real();
+  text_.append(in_stage ? 20 + 80 : 20, ' ');  // no unknown and no history
+  real(fixity.angle);
+  line();
+}
+
 // The columns of y stay blank.
 void Sage1Writer::fixity(const FieldFixity& fixity, bool in_stage) {
   if (!is_given(fixity.node)) return;
@@ -438,12 +453,13 @@ void Sage1Writer::stage(const Stage& stage) {
   name(stage.title.starts_with('*') ? " " + stage.title : stage.title, 80);
   line();
   heading("* incr meth iter outp fixi load pres brth deth init    grav x    grav y tolerance");
-  const std::size_t counts[] = {given(stage.fixities) + given(stage.field_fixities) + given(stage.exits),
-                                stage.loads.size() + stage.field_loads.size(),
-                                stage.pressures.size(),
-                                of_groups(stage.births),
-                                of_groups(stage.deaths),
-                                of_groups(stage.initials)};
+  const std::size_t counts[] = {
+      given(stage.fixities) + given(stage.turned_fixities) + given(stage.field_fixities) + given(stage.exits),
+      stage.loads.size() + stage.field_loads.size(),
+      stage.pressures.size(),
+      of_groups(stage.births),
+      of_groups(stage.deaths),
+      of_groups(stage.initials)};
   for (int value :
        {stage.given_increments(), static_cast<int>(stage.method), stage.max_iterations, stage.output_every})
     integer(value);
@@ -472,6 +488,7 @@ void Sage1Writer::stage(const Stage& stage) {
 // Supports and loads.
 void Sage1Writer::actions(const Stage& stage) {
   for (const Fixity& f : stage.fixities) fixity(f, true);
+  for (const TurnedFixity& f : stage.turned_fixities) fixity(f, true);
   for (const FieldFixity& f : stage.field_fixities) fixity(f, true);
   for (const Exit& e : stage.exits) exit(e);
   for (const NodalLoad& load : stage.loads) {
@@ -507,17 +524,19 @@ void Sage1Writer::point(const Report& report) {
   line();
   for (double value : {report.place.x(), report.place.y()}) real(value);
   name(report.name, 20);
+  if (report.kind == ReportKind::section)
+    for (double value : {report.end.x(), report.end.y()}) real(value);
   line();
 }
 
 bool Sage1Writer::is_written(const Report& report) const {
-  return report.kind == ReportKind::point ||
+  return report.kind == ReportKind::point || report.kind == ReportKind::section ||
          std::any_of(report.nodes.begin(), report.nodes.end(), [&](int node) { return is_given(node); });
 }
 
 void Sage1Writer::report(const Report& report) {
   if (!is_written(report)) return;
-  if (report.kind == ReportKind::point) return point(report);
+  if (report.kind == ReportKind::point || report.kind == ReportKind::section) return point(report);
   std::vector<int> numbers;
   for (int node : report.nodes)
     if (is_given(node)) numbers.push_back(node_number(node));
@@ -594,8 +613,9 @@ std::string Sage1Writer::deck() {
   materials();
   groups();
   elements();
-  if (given(model_.fixities) > 0) heading("* first last step xcod ycod");
+  if (given(model_.fixities) + given(model_.turned_fixities) > 0) heading("* first last step xcod ycod");
   for (const Fixity& f : model_.fixities) fixity(f, false);
+  for (const TurnedFixity& f : model_.turned_fixities) fixity(f, false);
   for (const FieldFixity& f : model_.field_fixities) fixity(f, false);
   if (!model_.initials.empty()) heading("* group kind      v1        v2        v3        v4");
   for (const InitialStress& i : model_.initials) initial(i);

@@ -185,6 +185,9 @@ void Coarsening::find_marks() {
 }
 
 void Coarsening::find_loads() {
+  if (model_->combines_dofs())
+    throw InputError("S369", {model_->file, 0, 0, 0},
+                     "--coarsen can't merge edges with supports at an angle or ties");
   std::map<std::pair<int, int>, int> cell_of;
   for (std::size_t c = 0; c < cells_.size(); ++c)
     cell_of[{cells_[c].group, cells_[c].element}] = static_cast<int>(c);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 #include "sage/messages/error.hpp"
@@ -244,6 +245,29 @@ void follow_field(Supports& supports, int field, std::vector<FieldFixity>& list,
   }
 }
 
+// The supports of one angle, in a list of turned ones.
+void follow_turned(Supports& supports, double angle, std::vector<TurnedFixity>& list,
+                   const std::vector<CutEdge>& edges) {
+  std::vector<Fixity> cards;
+  for (const TurnedFixity& f : list)
+    if (f.angle == angle) cards.push_back(f);
+  const std::size_t given = cards.size();
+  supports.follow(cards, edges);
+  for (std::size_t i = given; i < cards.size(); ++i) list.push_back({cards[i], angle});
+}
+
+void inherit_turned(Model& model, const std::vector<CutEdge>& edges) {
+  std::set<double> angles;
+  for (const TurnedFixity& f : model.turned_fixities) angles.insert(f.angle);
+  for (const Stage& stage : model.stages)
+    for (const TurnedFixity& f : stage.turned_fixities) angles.insert(f.angle);
+  for (const double angle : angles) {
+    Supports supports(model.mesh.nodes());
+    follow_turned(supports, angle, model.turned_fixities, edges);
+    for (Stage& stage : model.stages) follow_turned(supports, angle, stage.turned_fixities, edges);
+  }
+}
+
 void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {
   Supports supports(model.mesh.nodes());
   follow_field(supports, field, model.field_fixities, edges);
@@ -333,6 +357,7 @@ void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made) {
   Supports supports(model.mesh.nodes());
   supports.follow(model.fixities, cut);
   for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
+  inherit_turned(model, cut);
   const int pores = model.pore_field();
   for (std::size_t field = 1; field < model.unknowns.size(); ++field)
     if (static_cast<int>(field) != pores) inherit_field(model, static_cast<int>(field), cut);

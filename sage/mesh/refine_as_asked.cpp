@@ -74,9 +74,11 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
                     " is loaded but is no node of the graded mesh; load its edge by a pressure card");
   };
   std::erase_if(model.fixities, holds_lost);
+  std::erase_if(model.turned_fixities, holds_lost);
   std::erase_if(model.field_fixities, holds_lost);
   for (Stage& stage : model.stages) {
     std::erase_if(stage.fixities, holds_lost);
+    std::erase_if(stage.turned_fixities, holds_lost);
     std::erase_if(stage.field_fixities, holds_lost);
     std::erase_if(stage.exits, holds_lost);
     refuse_lost(stage.loads);

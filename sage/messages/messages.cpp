@@ -407,8 +407,9 @@ constexpr MessageEntry kMessages[] = {
      "Correct the factor. Otherwise reduce the strength on the material card and run the deck twice, or use "
      "sagefe safety, which finds the factor of any deck."},
     {"S242", "a report card lacks something",
-     "A report needs the data of its kind: a height for a triaxial specimen, a point card for a point, a stage "
-     "that exists, and an area if the nodes do not define it.",
+     "A report needs the data of its kind: a height for a triaxial specimen, a point card for a point or a "
+     "cut, a "
+     "stage that exists, and an area if the nodes do not define it.",
      "Complete the card: docs/manual/deck_format.md, cards report and point."},
     {"S243", "a point lies outside the mesh",
      "No solid element of the mesh, or of the chosen group, contains the point. The usual reasons are units "
@@ -779,6 +780,20 @@ constexpr MessageEntry kMessages[] = {
      "A water card makes a group undrained or drained, and the elements of the group already solve for the "
      "pressure of their water.",
      "Remove the water card. The field pore_water of each stage defines whether that water can move."},
+    {"S367", "a support at an angle can't be so",
+     "The field angle of a fixity card turns the directions that the card holds. It is for displacements that "
+     "are fixed, released or grow in proportion to the stage.",
+     "Correct the angle, in degrees, or leave it blank. Divide a motion that follows a table of time into "
+     "stages."},
+    {"S368", "displacements at a support contradict each other",
+     "A node has two displacements. It is held in three or more directions, and the values of the cards in "
+     "this "
+     "stage belong to no displacement.",
+     "Hold the node in one or two directions, or correct the values of the displacements."},
+    {"S369", "supports at an angle or ties are not possible here",
+     "Bounds by limit analysis and --coarsen know supports along x and y alone.",
+     "Run the model with sagefe run or sagefe safety, or turn its axes so that all supports are along x and "
+     "y."},
 
     // S4: refining, grading and mid-side nodes.
     {"S401", "elements of different degree meet",
@@ -1253,6 +1268,22 @@ constexpr MessageEntry kMessages[] = {
      "code 5.",
      "Look for an endless loop in the user routine, or for a pipe (FIFO) that nobody reads or writes. sagefe "
      "run --restart continues from the last checkpoint, if there is one."},
+    {"S635", "the cut of a section meets no solid",
+     "The straight line between the two ends of the cut passes no element of the solids, or of the chosen "
+     "group. The usual reasons are units (mm for m) and exchanged coordinates.",
+     "Correct the ends of the cut or the group. Parts of a cut outside of the solids are allowed and count "
+     "nothing."},
+    {"S636", "a section can't be computed",
+     "The cut has no length or lies on the axis of symmetry, the chosen group has no solids, solids lie on one "
+     "another, or the model has large strains.",
+     "Correct the two ends of the cut or the group: docs/manual/structures.md, sections through solids."},
+    {"S637", "the group of a section is divided",
+     "A geostatic start in layers divides the elements of a group. The group of the report is then only a part "
+     "of what the card means.",
+     "Leave the group of the report out. Choose the two ends of the cut so that it ends where the group ends."},
+    {"S638", "a section shows no forces",
+     "The solids that the cut meets are not active in the stages for which the report has rows.",
+     "Let the report start in another stage, or correct the cut."},
     {"S640", "a result file can't be used",
      "The file is not a result file of sagefe, is damaged, or was written by a version in which its deck means "
      "another model.",

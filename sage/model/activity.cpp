@@ -1,6 +1,8 @@
 #include "sage/model/activity.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 
 #include "sage/math/dense.hpp"
 #include "sage/model/joined.hpp"
@@ -34,6 +36,15 @@ std::string mode_name(const Eigen::Vector3d& mode) {
 
 }  // namespace
 
+std::vector<Vector2> TurnedNode::held_directions() const {
+  std::vector<Vector2> list;
+  if (by_xy[0]) list.emplace_back(1.0, 0.0);
+  if (by_xy[1]) list.emplace_back(0.0, 1.0);
+  for (const Axis& axis : axes)
+    if (axis.held) list.emplace_back(axis.direction[0], axis.direction[1]);
+  return list;
+}
+
 Activity::Activity(const Model& model)
     : dof_map(model), group(model.groups.size(), 1), held(static_cast<std::size_t>(dof_map.dofs()), 0) {
   for (const Stage& stage : model.stages)
@@ -41,12 +52,23 @@ Activity::Activity(const Model& model)
   apply(model.fixities, model.field_fixities, dof_map, held);
   for (int dof = dof_map.displacements(); dof < dof_map.dofs(); ++dof)
     if (model.unknowns[dof_map.at(dof).field].of_pores) pores.emplace_back(dof, held[dof]);
+  collect_turned(model);
+  collect_tied(model);
+  apply_turned(model.turned_fixities);
+  settle_turned();
+  settle_tied();
 }
 
 void Activity::enter(const Stage& stage) {
   for (int g : stage.births) group[g] = 1;
   for (int g : stage.deaths) group[g] = 0;
   for (const auto& [dof, supported] : pores) held[dof] = supported;
+  std::size_t tied_dof = 0;
+  for (const std::vector<int>& set : tied)
+    for (const int dof : set) held[dof] = held_before_ties_[tied_dof++];
+  for (const TurnedNode& node : turned)
+    for (int c = 0; c < 2; ++c)
+      held[DofMap::displacement(node.node, c)] = node.by_xy[static_cast<std::size_t>(c)];
   apply(stage.fixities, stage.field_fixities, dof_map, held);
   for (const Exit& exit : stage.exits)
     if (exit.field >= 0) apply(FixityCode::released, dof_map.of(exit.node, exit.field), held);
@@ -55,6 +77,125 @@ void Activity::enter(const Stage& stage) {
     supported = now;
     if (stage.pores != PoreWater::flows) now = stage.pores == PoreWater::kept;
   }
+  apply_turned(stage.turned_fixities);
+  settle_turned();
+  settle_tied();
+}
+
+void Activity::collect_turned(const Model& model) {
+  const auto add = [&](const std::vector<TurnedFixity>& list) {
+    for (const TurnedFixity& f : list) {
+      auto at = std::ranges::lower_bound(turned, f.node, {}, &TurnedNode::node);
+      if (at == turned.end() || at->node != f.node) {
+        at = turned.insert(at, TurnedNode());
+        at->node = f.node;
+      }
+      for (std::size_t c = 0; c < 2; ++c) {
+        const auto same = [&](const TurnedNode::Axis& axis) {
+          return axis.angle == f.angle && axis.component == c;
+        };
+        if (f.code[c] == FixityCode::unchanged || std::ranges::any_of(at->axes, same)) continue;
+        const Vector2 direction = turned_axis(f.angle, c);
+        at->axes.push_back({f.angle, c, {direction.x(), direction.y()}});
+      }
+    }
+  };
+  add(model.turned_fixities);
+  for (const Stage& stage : model.stages) add(stage.turned_fixities);
+}
+
+void Activity::apply_turned(const std::vector<TurnedFixity>& fixities) {
+  for (const TurnedFixity& f : fixities) {
+    const auto at = std::ranges::lower_bound(turned, f.node, {}, &TurnedNode::node);
+    for (TurnedNode::Axis& axis : at->axes) {
+      if (axis.angle != f.angle || f.code[axis.component] == FixityCode::unchanged) continue;
+      axis.held = f.code[axis.component] == FixityCode::fixed;
+    }
+  }
+}
+
+// One direction that is held leaves a line to slide along; two that differ hold the node.
+void Activity::settle_turned() {
+  for (TurnedNode& node : turned) {
+    for (std::size_t c = 0; c < 2; ++c)
+      node.by_xy[c] = held[DofMap::displacement(node.node, static_cast<int>(c))];
+    node.slides = false;
+    const std::vector<Vector2> directions = node.held_directions();
+    if (std::ranges::none_of(node.axes, &TurnedNode::Axis::held)) continue;
+    node.slides = directions.size() == 1;
+    if (node.slides) node.slide = {directions[0].y(), -directions[0].x()};
+    for (int c = 0; c < 2; ++c) held[DofMap::displacement(node.node, c)] = node.slides ? 0 : 1;
+  }
+}
+
+void Activity::collect_tied(const Model& model) {
+  if (model.ties.empty()) return;
+  Joined joined(static_cast<std::size_t>(dof_map.displacements()));
+  for (const Tie& tie : model.ties)
+    for (int c = 0; c < 2; ++c)
+      if (tie.component[static_cast<std::size_t>(c)])
+        joined.join(DofMap::displacement(tie.node, c), DofMap::displacement(tie.to, c));
+  std::map<int, std::vector<int>> sets;
+  for (int dof = 0; dof < dof_map.displacements(); ++dof) sets[joined.set_of(dof)].push_back(dof);
+  in_tie_.assign(held.size(), 0);
+  for (auto& [first, dofs] : sets) {
+    if (dofs.size() < 2) continue;
+    for (const int dof : dofs) in_tie_[dof] = 1;
+    tied.push_back(std::move(dofs));
+  }
+}
+
+// A support of one of them holds all.
+void Activity::settle_tied() {
+  held_before_ties_.clear();
+  for (const std::vector<int>& set : tied) {
+    for (const int dof : set) held_before_ties_.push_back(held[dof]);
+    const bool any = std::ranges::any_of(set, [&](int dof) { return held[dof] != 0; });
+    for (const int dof : set) held[dof] = any ? 1 : 0;
+  }
+}
+
+const TurnedNode* Activity::turned_at(int node) const {
+  const auto at = std::ranges::lower_bound(turned, node, {}, &TurnedNode::node);
+  return at == turned.end() || at->node != node ? nullptr : &*at;
+}
+
+bool Activity::has_reaction(int dof) const {
+  if (held[dof] != 0) return true;
+  if (turned.empty() || dof >= dof_map.displacements()) return false;
+  const TurnedNode* const node = turned_at(dof / 2);
+  return node != nullptr && node->slides;
+}
+
+Vector2 held_motion(const Stage& stage, const TurnedNode& node, const Vector2& by_xy, double* contradiction) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  Vector2 moved = Vector2::Zero();
+  std::vector<std::pair<Vector2, double>> held;
+  const auto add = [&](const Vector2& direction, double value) {
+    held.emplace_back(direction, value);
+    sum += direction * direction.transpose();
+    moved += value * direction;
+  };
+  if (node.by_xy[0]) add({1.0, 0.0}, by_xy.x());
+  if (node.by_xy[1]) add({0.0, 1.0}, by_xy.y());
+  for (const TurnedNode::Axis& axis : node.axes) {
+    if (!axis.held) continue;
+    double value = 0.0;
+    for (const TurnedFixity& f : stage.turned_fixities)
+      if (f.node == node.node && f.angle == axis.angle && f.code[axis.component] == FixityCode::fixed)
+        value = f.value[axis.component];
+    add({axis.direction[0], axis.direction[1]}, value);
+  }
+  if (!node.slides) {
+    const double size = sum(0, 0) * sum(1, 1) - sum(0, 1) * sum(1, 0);
+    moved =
+        Vector2(sum(1, 1) * moved.x() - sum(0, 1) * moved.y(), sum(0, 0) * moved.y() - sum(1, 0) * moved.x()) /
+        size;
+  }
+  if (contradiction != nullptr)
+    for (const auto& [direction, value] : held)
+      *contradiction = std::max(*contradiction, std::abs(direction.dot(moved) - value));
+  return moved;
 }
 
 std::vector<char> active_nodes(const Model& model, const Activity& activity) {
@@ -118,6 +259,10 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
     const Eigen::Vector3d row_x(1.0, 0.0, -d.y()), row_y(0.0, 1.0, d.x());
     if (activity.holds(node, 0)) gram[pu] += row_x * row_x.transpose();
     if (activity.holds(node, 1)) gram[pu] += row_y * row_y.transpose();
+    if (const TurnedNode* const turned = activity.turned_at(node); turned != nullptr && turned->slides) {
+      const Eigen::Vector3d row = turned->slide[1] * row_x - turned->slide[0] * row_y;
+      gram[pu] += row * row.transpose();
+    }
     for (std::size_t field = 1; field < model.unknowns.size(); ++field) {
       const int dof = activity.dof_map.of(node, static_cast<int>(field));
       if (model.unknowns[field].turns && dof >= 0 && activity.held[dof]) gram[pu](2, 2) += 1.0;

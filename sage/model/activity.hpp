@@ -1,6 +1,7 @@
 // What takes part in a stage: groups that are born and not yet removed, dofs that are held.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <utility>
@@ -10,6 +11,27 @@
 
 namespace sage {
 
+// A node with turned supports (TurnedFixity), and what holds it now.
+struct TurnedNode {
+  struct Axis {
+    double angle = 0.0;
+    std::size_t component = 0;
+    std::array<double, 2> direction{};  // its unit vector
+    bool held = false;
+    bool operator==(const Axis&) const = default;
+  };
+
+  int node = 0;
+  std::array<char, 2> by_xy{};  // held by supports along x and y
+  std::vector<Axis> axes;       // of all its turned supports, of any stage
+  bool slides = false;          // held in one turned direction alone: it moves along `slide`
+  std::array<double, 2> slide{};
+
+  // Unit vectors of all directions that are held now.
+  std::vector<Vector2> held_directions() const;
+  bool operator==(const TurnedNode&) const = default;
+};
+
 struct Activity {
   explicit Activity(const Model& model);
   // Births, deaths and fixities of a stage, on top of those before it.
@@ -17,13 +39,37 @@ struct Activity {
 
   // Of a displacement.
   bool holds(int node, int component) const { return held[DofMap::displacement(node, component)] != 0; }
+  // The node, where it has turned supports; else nullptr.
+  const TurnedNode* turned_at(int node) const;
+  // A support acts on the dof: it is held, or its node slides along a line.
+  bool has_reaction(int dof) const;
+  // ... or a tie does.
+  bool is_constrained(int dof) const { return has_reaction(dof) || (!in_tie_.empty() && in_tie_[dof] != 0); }
 
   DofMap dof_map;
   std::vector<char> group;  // active now
-  std::vector<char> held;   // a dof: prescribed
+  std::vector<char> held;   // a dof: prescribed; not those of nodes that slide
   // Excess pressures of pore water, one entry each: whether supports hold it, while the stage may keep or free them all.
   std::vector<std::pair<int, char>> pores;  // dof and flag
+  std::vector<TurnedNode> turned;           // by rising node
+  // Displacements that are equal: sets of dofs that ties join, each by rising number.
+  std::vector<std::vector<int>> tied;
+
+ private:
+  void collect_turned(const Model& model);
+  void collect_tied(const Model& model);
+  void apply_turned(const std::vector<TurnedFixity>& fixities);
+  void settle_turned();
+  void settle_tied();
+
+  std::vector<char> in_tie_;            // of each dof; empty = there are no ties
+  std::vector<char> held_before_ties_;  // of each dof of `tied`, one set after the other
 };
+
+// What the supports of a node with turned ones add to its displacement over a stage.  by_xy: what those along x and y add.
+// contradiction: rises to the largest difference from the value of a card, where not all directions can have theirs.
+Vector2 held_motion(const Stage& stage, const TurnedNode& node, const Vector2& by_xy,
+                    double* contradiction = nullptr);
 
 // A flag for every node: some element of an active group has it.
 std::vector<char> active_nodes(const Model& model, const Activity& activity);

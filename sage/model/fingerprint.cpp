@@ -15,6 +15,10 @@ void add_fixities(Archive& archive, const std::vector<Fixity>& fixities) {
   for (const Fixity& f : fixities) add(archive, f.node, f.code, f.value);
 }
 
+void add_turned_fixities(Archive& archive, const std::vector<TurnedFixity>& fixities) {
+  for (const TurnedFixity& f : fixities) add(archive, f.node, f.code, f.value, f.angle);
+}
+
 void add_field_fixities(Archive& archive, const std::vector<FieldFixity>& fixities) {
   for (const FieldFixity& f : fixities) add(archive, f.field, f.node, f.code, f.value);
 }
@@ -32,6 +36,7 @@ void add_stage(Archive& archive, const Stage& s) {
   add(archive, s.title, s.increments, s.duration, s.method, s.max_iterations, s.output_every, s.tolerance,
       s.gravity.x(), s.gravity.y());
   add_fixities(archive, s.fixities);
+  add_turned_fixities(archive, s.turned_fixities);
   for (const NodalLoad& load : s.loads) add(archive, load.node, load.force.x(), load.force.y());
   add_field_fixities(archive, s.field_fixities);
   for (const Exit& exit : s.exits) {
@@ -80,6 +85,8 @@ std::uint64_t fingerprint(const Model& model) {
   for (const Group& g : model.groups)
     if (g.second_material >= 0) add(archive, g.number, g.second_material);
   add_fixities(archive, model.fixities);
+  add_turned_fixities(archive, model.turned_fixities);
+  for (const Tie& tie : model.ties) add(archive, tie.node, tie.to, tie.component);
   add_field_fixities(archive, model.field_fixities);
   add_initials(archive, model.initials);
   for (const Stage& stage : model.stages) add_stage(archive, stage);
@@ -88,9 +95,11 @@ std::uint64_t fingerprint(const Model& model) {
     for (const Vector2& point : card.line) add(archive, point.x(), point.y());
     for (const auto& [node, pressure] : card.nodes) add(archive, node, pressure);
   }
-  for (const Report& r : model.reports)
+  for (const Report& r : model.reports) {
     add(archive, r.kind, r.group, r.nodes, r.height, r.area, r.cell_pressure, r.place.x(), r.place.y(), r.name,
         r.stage);
+    if (r.kind == ReportKind::section) add(archive, r.end.x(), r.end.y());
+  }
   return archive.sum();
 }
 

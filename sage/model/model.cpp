@@ -85,6 +85,11 @@ std::vector<int> nodes_of_area(const Model& model, const Report& report) {
 
 }  // namespace
 
+Vector2 turned_axis(double angle, std::size_t component) {
+  const double along = angle * kRadiansPerDegree, c = std::cos(along), s = std::sin(along);
+  return component == 0 ? Vector2(c, s) : Vector2(-s, c);
+}
+
 double report_area(const Model& model, const Report& report) {
   if (report.area > 0.0) return report.area;
   const std::vector<int> nodes = nodes_of_area(model, report);

@@ -119,6 +119,20 @@ struct Fixity {
   TimeTable history = {};
 };
 
+// A support with axes of its own, as others are in x and y: component 0 along a line, component 1 normal to it.
+struct TurnedFixity : Fixity {
+  double angle = 0.0;  // of the line: degrees, anticlockwise from x, above 0 and below 90
+};
+// Unit vector of a component of such a support.
+Vector2 turned_axis(double angle, std::size_t component);
+
+// In every stage the node moves as another one does, in x, y or both.
+struct Tie {
+  int node = 0, to = 0;
+  std::array<char, 2> component{};  // flags
+  int line = 0;
+};
+
 struct NodalLoad {
   int node = 0;
   Vector2 force = Vector2::Zero();  // added over the stage
@@ -268,6 +282,7 @@ struct Stage {
   double tolerance = 1e-8;            // relative out-of-balance force at the end of an increment
   Vector2 gravity = Vector2::Zero();  // added over the stage, in multiples of the materials' unit weight
   std::vector<Fixity> fixities;
+  std::vector<TurnedFixity> turned_fixities;
   std::vector<NodalLoad> loads;
   std::vector<FieldFixity> field_fixities;
   std::vector<FieldLoad> field_loads;
@@ -296,20 +311,24 @@ struct Stage {
   bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }
 };
 
-enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4, uplift = 5 };
+enum class ReportKind { triaxial = 1, nodes = 2, point = 3, discharge = 4, uplift = 5, section = 6 };
 
 // triaxial: axial force of the listed nodes against the law's own answer for frictionless ends.
 // nodes: displacement and force summed over the listed nodes, a row an increment.
 // point: displacement, strain and stress at a place, a row an increment.
 // discharge: what flows through a line of nodes, from its left to its right, a row an increment.
 // uplift: the weight above a line of nodes against the water below it, a row at the end of each stage.
+// section: normal force, shear force and bending moment of the solids along a straight cut, a row an increment.
 struct Report {
   ReportKind kind = ReportKind::triaxial;
-  int group = -1;  // triaxial: of the specimen; point: the one that answers where several meet, -1 = the first
+  // triaxial: of the specimen; point: the one that answers where several meet, -1 = the first; section: the one that is cut,
+  // -1 = all solids
+  int group = -1;
   std::vector<int> nodes;
   double height = 0.0, area = 0.0, cell_pressure = 0.0;
-  Vector2 place = Vector2::Zero();  // point
-  std::string name;                 // point; may be empty
+  Vector2 place = Vector2::Zero();  // point; section: first end of the cut
+  Vector2 end = Vector2::Zero();    // section: its second end
+  std::string name;                 // point, section; may be empty
   std::vector<std::string> fields;  // point: more than the usual ones, by name
   int stage = 0;                    // strain and deviator count from the start of this stage (0-based)
   SourcePosition where;
@@ -328,7 +347,9 @@ struct Model {
   std::vector<Group> groups;
   std::vector<UnknownField> unknowns{displacement_field()};  // displacement, then those of the elements
   std::vector<Fixity> fixities;                              // before the first stage; values must be zero
-  std::vector<FieldFixity> field_fixities;                   // likewise
+  std::vector<TurnedFixity> turned_fixities;                 // likewise
+  std::vector<Tie> ties;
+  std::vector<FieldFixity> field_fixities;  // likewise
   std::vector<InitialStress> initials;
   std::vector<Stage> stages;
   std::vector<WaterCard> water;  // in the order of the deck
@@ -344,6 +365,12 @@ struct Model {
     return found == unknowns.end() ? -1 : static_cast<int>(found - unknowns.begin());
   }
   bool has_pores() const { return pore_field() >= 0; }
+  bool has_turned_supports() const {
+    return !turned_fixities.empty() ||
+           std::ranges::any_of(stages, [](const Stage& stage) { return !stage.turned_fixities.empty(); });
+  }
+  // Several dofs may have one equation.
+  bool combines_dofs() const { return has_turned_supports() || !ties.empty(); }
   // Holds nullptr where the group has one law.
   LawRef second_law_of(const Group& group) const {
     if (group.second_material < 0) return {};

@@ -238,8 +238,8 @@ bool Drawing::mesh_it() {
     for (const SectionFault& fault : error.faults())
       values_.error(fault.code, place_of(fault.item, fault.index), fault.message);
   }
-  for (const Tie& tie : mesh_.ties) {
-    if (tie.kind != Tie::Kind::end) continue;
+  for (const NodePair& tie : mesh_.ties) {
+    if (tie.kind != NodePair::Kind::end) continue;
     values_.error("S152", place_of(SectionItem::line, tie.line),
                   "line " + section_.lines[tie.line].name +
                       ": the end of a joint inside the ground can be joined only with a beam; leave it open");
@@ -443,6 +443,12 @@ void Drawing::add(const toml::table& root) {
   add_areas();
   add_lines();
   add_bars(root);
+}
+
+std::optional<Vector2> Drawing::point_at(const toml::node& node) {
+  const int found = find_point(node);
+  if (found < 0) return std::nullopt;
+  return section_.points[static_cast<std::size_t>(found)].x;
 }
 
 std::vector<int> Drawing::nodes_at(const toml::node& node) {

@@ -31,6 +31,8 @@ class Drawing {
   // Draws, meshes, and adds the cards.  Names of lines and areas become those of groups.
   void add(const toml::table& root);
 
+  // Where a point is, by name.  None, and an error, where there is none of that name.
+  std::optional<Vector2> point_at(const toml::node& point);
   // Numbers of the nodes at a point or along a line, by name.  Empty, and an error, where there is none.
   std::vector<int> nodes_at(const toml::node& point);
   std::vector<int> nodes_along(const toml::node& line);

@@ -54,7 +54,7 @@ const std::vector<Change>& changes() {
        "kind",
        Want::code,
        {},
-       {{1, "triaxial"}, {2, "nodes"}, {3, "point"}, {4, "discharge"}, {5, "uplift"}}},
+       {{1, "triaxial"}, {2, "nodes"}, {3, "point"}, {4, "discharge"}, {5, "uplift"}, {6, "section"}}},
       {"report", "group", Want::group},
       {"report", "nodes", Want::integers},
       {"water",
@@ -220,6 +220,10 @@ void add_places(std::vector<Table>& list) {
       one.keys.push_back(drawn("line", Want::text, "in place of first and last: all nodes along a line"));
     if (fixity || report || load)
       one.keys.push_back(drawn("point", Want::text, "in place of first and last: a point"));
+    if (report) {
+      one.keys.push_back(drawn("from", Want::point, "in place of x and y: first end of the cut of a section"));
+      one.keys.push_back(drawn("to", Want::point, "in place of end_x and end_y: its second end"));
+    }
     if (one.card != "pressure") continue;
     one.keys.push_back(
         drawn("line", Want::text, "in place of element and edge: a line, from its first point to its last"));

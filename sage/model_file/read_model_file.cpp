@@ -41,6 +41,8 @@ class Reader {
   bool is_drawn(const toml::node& place);  // an error where it is not
   void add_initial_tractions(const toml::table& from, int owner = -1);
   void draw(const toml::table& root);
+  void add_end(const toml::table& one, const char* key, const char* x, const char* y,
+               std::vector<NewField>& place);
 
   Values values_;
   translate::CardWriter out_;
@@ -261,11 +263,36 @@ void Reader::add_stages(const toml::table& root) {
   }
 }
 
+// An end of a cut: [x, y], or a point of the drawing.
+void Reader::add_end(const toml::table& one, const char* key, const char* x, const char* y,
+                     std::vector<NewField>& place) {
+  const toml::node* end = one.get(key);
+  if (end == nullptr) return;
+  if (one.contains(x) || one.contains(y))
+    values_.error("S152", values_.where(*end),
+                  std::string("give ") + key + ", or " + x + " and " + y + ", but not both");
+  const toml::array* list = end->as_array();
+  if (list == nullptr) {
+    if (!is_drawn(*end)) return;
+    if (const std::optional<Vector2> at = drawing_->point_at(*end)) {
+      place.push_back({x, at->x(), values_.where(*end), {}});
+      place.push_back({y, at->y(), values_.where(*end), {}});
+    }
+    return;
+  }
+  if (list->size() != 2) {
+    values_.error("S152", values_.where(*end), std::string(key) + " is [x, y], or the name of a point");
+    return;
+  }
+  place.push_back({x, values_.number(*list->get(0), key, "length"), values_.where(*end), {}});
+  place.push_back({y, values_.number(*list->get(1), key, "length"), values_.where(*end), {}});
+}
+
 void Reader::add_reports(const toml::table& root) {
   for (const toml::table* one : values_.entries(root, "report")) {
     const Table& report = table("report");
     values_.know_keys(*one, report);
-    std::vector<NewField> card = values_.fields(*one, report, {"x", "y", "name", "nodes"});
+    std::vector<NewField> card = values_.fields(*one, report, {"x", "y", "name", "end_x", "end_y", "nodes"});
     if (const toml::node* nodes = one->get("nodes"))
       values_.add_value(*report.find("nodes"), *one, *nodes, card);
     for (const char* key : {"line", "point"}) {
@@ -276,8 +303,10 @@ void Reader::add_reports(const toml::table& root) {
     }
     const int owner = out_.add("report", values_.where(*one), card);
     std::vector<NewField> place;
-    for (const char* key : {"x", "y", "name"})
+    for (const char* key : {"x", "y", "name", "end_x", "end_y"})
       if (const toml::node* node = one->get(key)) values_.add_value(*report.find(key), *one, *node, place);
+    add_end(*one, "from", "x", "y", place);
+    add_end(*one, "to", "end_x", "end_y", place);
     if (!place.empty()) out_.add("point", values_.where(*one), place, owner);
   }
 }

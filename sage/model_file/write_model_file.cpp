@@ -205,11 +205,12 @@ void Writer::add_stages() {
 }
 
 void Writer::add_reports() {
+  constexpr std::string_view kOfPoint[] = {"x", "y", "name", "end_x", "end_y"};
   for (const CardView& card : deck_.all("report")) {
     Pairs all = pairs(card, table("report"));
     for (const CardView& place : deck_.all("point", card))
       for (const auto& pair : pairs(place, table("report")))
-        if (pair.first == "x" || pair.first == "y" || pair.first == "name") all.push_back(pair);
+        if (std::ranges::find(kOfPoint, pair.first) != std::end(kOfPoint)) all.push_back(pair);
     add_table("[[report]]", all);
   }
   for (const CardView& card : deck_.all("water")) add_table("[[water]]", pairs(card, table("water")));

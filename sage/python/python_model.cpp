@@ -86,7 +86,10 @@ SupportInput support_of(const py::handle& object) {
           fixity_of(object, "y"),
           attribute<double>(object, "x_value"),
           attribute<double>(object, "y_value"),
-          attribute<std::string>(object, "unknown")};
+          attribute<std::string>(object, "unknown"),
+          {},
+          false,
+          attribute<double>(object, "angle")};
 }
 
 LoadInput load_of(const py::handle& object) {
@@ -172,7 +175,8 @@ ReportInput report_of(const py::handle& object) {
                                              {"nodes", ReportKind::nodes},
                                              {"point", ReportKind::point},
                                              {"discharge", ReportKind::discharge},
-                                             {"uplift", ReportKind::uplift}});
+                                             {"uplift", ReportKind::uplift},
+                                             {"section", ReportKind::section}});
   report.nodes = attribute<std::vector<int>>(object, "nodes");
   report.group = attribute<int>(object, "group");
   report.stage = attribute<int>(object, "stage");
@@ -182,6 +186,8 @@ ReportInput report_of(const py::handle& object) {
   const auto place = attribute<std::pair<double, double>>(object, "place");
   report.place = {place.first, place.second};
   report.name = attribute<std::string>(object, "name");
+  const auto end = attribute<std::pair<double, double>>(object, "end");
+  report.end = {end.first, end.second};
   return report;
 }
 

@@ -269,7 +269,7 @@ NodeView NodeViews::at(int node) const {
   view.displacement = solution_.u->segment<2>(first);
   view.load = solution_.external->segment<2>(first);
   for (int c = 0; c < 2; ++c)
-    view.reaction[c] = solution_.activity->holds(node, c) ? reaction(solution_, first + c) : kNone;
+    view.reaction[c] = solution_.activity->has_reaction(first + c) ? reaction(solution_, first + c) : kNone;
   view_unknowns(solution_, node, view);
   view.index = node;
   view.stream_function = &stream_function_;

@@ -37,9 +37,10 @@ void parameter(std::string& text, const Model& model, const Material& material, 
                  given ? "" : " (not given: default)");
 }
 
-std::size_t fixity_count(const std::vector<Fixity>& fixities, FixityCode code) {
+template <class Card>
+std::size_t fixity_count(const std::vector<Card>& fixities, FixityCode code) {
   std::size_t count = 0;
-  for (const Fixity& f : fixities)
+  for (const Card& f : fixities)
     for (FixityCode c : f.code) count += c == code ? 1u : 0u;
   return count;
 }
@@ -241,7 +242,8 @@ void counts(std::string& text, const Model& model) {
       to(text),
       "   nodes {}{}, elements {}, integration points {}, held directions {}, stages {}, reports {}\n",
       model.mesh.nodes(), made > 0 ? fmt::format(" ({} made by the program)", made) : "", elements, points,
-      fixity_count(model.fixities, FixityCode::fixed), model.stages.size(), model.reports.size());
+      fixity_count(model.fixities, FixityCode::fixed) + fixity_count(model.turned_fixities, FixityCode::fixed),
+      model.stages.size(), model.reports.size());
 }
 
 void materials(std::string& text, const Model& model, const Catalogue& catalogue) {
@@ -293,6 +295,10 @@ void stage(std::string& text, const Model& model, int index) {
     add(fmt::format("{} directions held or moved", n));
   if (const auto n = fixity_count(s.fixities, FixityCode::released))
     add(fmt::format("{} directions released", n));
+  if (!s.turned_fixities.empty())
+    add(fmt::format("{} directions at an angle held or moved, {} released",
+                    fixity_count(s.turned_fixities, FixityCode::fixed),
+                    fixity_count(s.turned_fixities, FixityCode::released)));
   const auto by_table = [](const auto& card) { return !card.history.empty(); };
   const auto tables = std::ranges::count_if(s.fixities, by_table) + std::ranges::count_if(s.loads, by_table) +
                       std::ranges::count_if(s.pressures, by_table);

@@ -98,6 +98,30 @@ void uplift_rows(std::string& text, const Model& model, const std::vector<Uplift
   }
 }
 
+void section_rows(std::string& text, const Model& model, const std::vector<SectionRow>& rows) {
+  const bool ring = model.geometry == Geometry::axisymmetric;
+  fmt::format_to(to(text), "   {:>5}{:>6}{:>14}{:>14}{:>16}", "stage", "incr", "axial force", "shear force",
+                 "bending moment");
+  if (ring) fmt::format_to(to(text), "{:>14}{:>14}", "hoop force", "hoop moment");
+  fmt::format_to(
+      to(text),
+      "{:>14}{:>14}{:>14}{:>14}    ({}, {} per unit of {}; of total stress, compression positive; error: "
+      "estimates)\n",
+      "length", "axial error", "shear error", "moment error", model.units.force,
+      unit_text(Dimension::moment, model.units), ring ? "circumference at the middle of the cut" : "thickness");
+  for (const SectionRow& r : rows) {
+    fmt::format_to(to(text), "   {:>5}{:>6}", r.stage, r.increment);
+    put(text, r.value.axial, 14, 6);
+    put(text, r.value.shear, 14, 6);
+    put(text, r.value.moment, 16, 6);
+    if (ring) put(text, r.value.hoop, 14, 6);
+    if (ring) put(text, r.value.hoop_moment, 14, 6);
+    put(text, r.value.length, 14, 6);
+    for (const double error : r.value.error) put(text, error, 14, 3);
+    text += '\n';
+  }
+}
+
 void flow_point_rows(std::string& text, const Model& model, const std::vector<PointRow>& rows) {
   fmt::format_to(to(text), "   stage  incr{:>14}{:>14}{:>14}{:>14}    (heads {}, velocity {})\n", "head",
                  "pressure head", "velocity-x", "velocity-y", model.units.length,
@@ -223,6 +247,12 @@ void report_rows(std::string& text, const Model& model, const Reports& reports) 
       case ReportKind::uplift:
         heading(text, fmt::format("REPORT {}: UPLIFT AND HYDRAULIC HEAVE", i + 1));
         uplift_rows(text, model, reports.uplifts(i));
+        break;
+      case ReportKind::section:
+        heading(text, fmt::format("REPORT {}: SECTION {}({:.10g}; {:.10g}) TO ({:.10g}; {:.10g})", i + 1,
+                                  report.name.empty() ? "" : report.name + " ", report.place.x(),
+                                  report.place.y(), report.end.x(), report.end.y()));
+        section_rows(text, model, reports.sections(i));
         break;
       case ReportKind::point:
         heading(text,

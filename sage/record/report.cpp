@@ -53,7 +53,8 @@ std::array<double, 2> released_forces(const Model& model, const Report& report, 
   for (int node : report.nodes)
     for (int c = 0; c < 2; ++c) {
       const int dof = DofMap::displacement(node, c);
-      if (active[node] && !start.activity->held[dof]) sum[c] += (*start.internal)[dof] - (*start.external)[dof];
+      if (active[node] && !start.activity->is_constrained(dof))
+        sum[c] += (*start.internal)[dof] - (*start.external)[dof];
     }
   const double largest = start.internal->size() > 0 ? start.internal->lpNorm<Eigen::Infinity>() : 0.0;
   for (double& s : sum)
@@ -107,6 +108,18 @@ std::string remarks(const Model& model, std::size_t index) {
         "blank without "
         "flow upwards\n",
         per);
+  if (report.kind == ReportKind::section)
+    return fmt::format(
+        "# {}; forces of total stress {}\n"
+        "# axial_force compression positive; bending_moment about the middle of the cut, positive with tension "
+        "at its "
+        "first "
+        "end; shear_force positive where the right of the cut pushes towards its second end\n"
+        "# length of the cut in active solids, blank forces without any; *_error: by another smoothing of the "
+        "stress less the value, an estimate\n",
+        report_title(model, index),
+        model.geometry == Geometry::axisymmetric ? "per unit of circumference at the middle of the cut"
+                                                 : "per unit of thickness");
   if (kind_at_points(model) == ElementKind::flow)
     return fmt::format(
         "# {}; head, pressure head and velocity of the water; units {}\n# blank while nothing is active "
@@ -136,6 +149,30 @@ struct Reports::NodeSums {
   double force[2] = {0, 0};  // sum of internal forces, less the weight
   double extent = 0.0;       // of the nodes where they are now: pi r_max^2, or the width in plane strain
 };
+
+namespace {
+
+std::vector<ReportColumn> section_columns(const Model& model) {
+  const std::string force = model.units.force, moment = unit_text(Dimension::moment, model.units);
+  std::vector<ReportColumn> columns{
+      {"axial_force", force, true}, {"shear_force", force, true}, {"bending_moment", moment, true}};
+  if (model.geometry == Geometry::axisymmetric)
+    columns.insert(columns.end(), {{"hoop_force", force, true}, {"hoop_moment", moment, true}});
+  columns.insert(columns.end(), {{"length", model.units.length},
+                                 {"axial_force_error", force, true},
+                                 {"shear_force_error", force, true},
+                                 {"bending_moment_error", moment, true}});
+  return columns;
+}
+
+std::vector<double> section_values(const Model& model, const SectionForces& r) {
+  std::vector<double> values{r.axial, r.shear, r.moment};
+  if (model.geometry == Geometry::axisymmetric) values.insert(values.end(), {r.hoop, r.hoop_moment});
+  values.insert(values.end(), {r.length, r.error[0], r.error[1], r.error[2]});
+  return values;
+}
+
+}  // namespace
 
 std::vector<ReportColumn> report_columns(const Model& model, const Report& report) {
   const UnitSystem& u = model.units;
@@ -169,6 +206,7 @@ std::vector<ReportColumn> report_columns(const Model& model, const Report& repor
             {"fy", u.force, true}};
   if (report.kind == ReportKind::uplift)
     return {{"weight", u.force}, {"water", u.force}, {"uplift", "-", true}, {"heave", "-", true}};
+  if (report.kind == ReportKind::section) return section_columns(model);
   const FieldTable table = fields_of(model);
   std::vector<ReportColumn> columns;
   for (const FieldEntry* field : point_report_fields(model, table, report))
@@ -190,6 +228,10 @@ std::string report_title(const Model& model, std::size_t index) {
   if (report.kind == ReportKind::point)
     text += fmt::format(", {} at ({:.10g}; {:.10g})", report.name.empty() ? "point" : report.name,
                         report.place.x(), report.place.y());
+  if (report.kind == ReportKind::section)
+    text += fmt::format(", {} from ({:.10g}; {:.10g}) to ({:.10g}; {:.10g})",
+                        report.name.empty() ? "cut" : report.name, report.place.x(), report.place.y(),
+                        report.end.x(), report.end.y());
   return text;
 }
 
@@ -368,7 +410,7 @@ void Reports::on_start(const Model& model, const Scene&, std::string_view, int) 
 
 bool Reports::wants_states(const Model& model, const StepReport&) const {
   return std::any_of(model.reports.begin(), model.reports.end(), [](const Report& r) {
-    return r.kind == ReportKind::point || r.kind == ReportKind::discharge;
+    return r.kind == ReportKind::point || r.kind == ReportKind::discharge || r.kind == ReportKind::section;
   });
 }
 
@@ -476,9 +518,12 @@ void Reports::enter_points(const Model& model, const Solution& solution) {
   for (std::size_t i = 0; i < series_.size(); ++i) {
     const Report& report = model.reports[i];
     if (report.kind == ReportKind::discharge) series_[i].line = flow_line(model, probed_, report.nodes);
-    if (report.kind != ReportKind::point) continue;
+    if (report.kind != ReportKind::point && report.kind != ReportKind::section) continue;
     if (!maker) maker.emplace(model, probed_, kind_at_points(model));
-    series_[i].probe = maker->at(report.place, report.group);
+    if (report.kind == ReportKind::section)
+      series_[i].section = SectionSum(model, report, probed_, *maker);
+    else
+      series_[i].probe = maker->at(report.place, report.group);
   }
 }
 
@@ -591,7 +636,7 @@ void Reports::add_discharge(Series& series, const Model& model, const Report& re
 std::size_t Reports::rows(std::size_t index) const {
   const Series& series = series_[index];
   return series.triaxial.size() + series.nodes.size() + series.points.size() + series.discharges.size() +
-         series.uplifts.size();  // of one kind only
+         series.uplifts.size() + series.sections.size();  // of one kind only
 }
 
 std::pair<int, int> Reports::step(std::size_t index, std::size_t row) const {
@@ -600,6 +645,7 @@ std::pair<int, int> Reports::step(std::size_t index, std::size_t row) const {
   if (row < series.nodes.size()) return {series.nodes[row].stage, series.nodes[row].increment};
   if (row < series.discharges.size()) return {series.discharges[row].stage, series.discharges[row].increment};
   if (row < series.uplifts.size()) return {series.uplifts[row].stage, series.uplifts[row].increment};
+  if (row < series.sections.size()) return {series.sections[row].stage, series.sections[row].increment};
   return {series.points.at(row).stage, series.points.at(row).increment};
 }
 
@@ -627,6 +673,7 @@ std::vector<double> Reports::values(std::size_t index, std::size_t row) const {
     const Uplift& r = series.uplifts[row].value;
     return {r.weight, r.water, r.uplift, r.heave};
   }
+  if (row < series.sections.size()) return section_values(*model_, series.sections[row].value);
   const PointRow& r = series.points.at(row);
   std::vector<double> values;
   if (series.of_flow) {
@@ -678,6 +725,8 @@ void Reports::add_rows(const Model& model, const StepReport& step, const Solutio
       add_point(series, model, step, solution);
     } else if (report.kind == ReportKind::discharge) {
       add_discharge(series, model, report, step, solution);
+    } else if (report.kind == ReportKind::section) {
+      series.sections.push_back({step.stage + 1, step.increment, series.section.forces(model, solution)});
     } else if (report.kind == ReportKind::uplift) {
       if (step.load_factor < 1.0) continue;
       series.uplifts.push_back({step.stage + 1, step.increment,
@@ -759,6 +808,7 @@ void Reports::exchange(Archive& archive) {
     archive(series.points);
     archive(series.discharges);
     archive(series.uplifts);
+    archive(series.sections);
     archive(series.filled);
     archive(series.group);
     archive(series.start);

@@ -9,6 +9,7 @@
 #include "sage/record/out_file.hpp"
 #include "sage/record/output.hpp"
 #include "sage/record/sampler.hpp"
+#include "sage/record/section_forces.hpp"
 #include "sage/record/uplift.hpp"
 
 namespace sage {
@@ -78,6 +79,12 @@ struct UpliftRow {
   Uplift value;
 };
 
+// One increment of a section report (section_forces.hpp).
+struct SectionRow {
+  int stage = 0, increment = 0;
+  SectionForces value;
+};
+
 // The usual fields of a point report, whose values are those numbers; then come those of Report::fields.
 FieldList point_report_fields(const Model& model, const FieldTable& table, const Report& report);
 
@@ -88,7 +95,7 @@ struct ReportColumn {
 };
 std::vector<ReportColumn> report_columns(const Model& model, const Report& report);
 
-// "report 2", or with the name and place of a point: "report 2, crest at (0.5; 1)".
+// "report 2", or with the name and place of a point or a cut: "report 2, crest at (0.5; 1)", "report 3, slab from (0; 1) to (0; 2)".
 std::string report_title(const Model& model, std::size_t index);
 
 // Where a triaxial report's frictionless test starts.  Tension positive, the law's own signs; empty: the isotropic
@@ -142,6 +149,7 @@ class Reports final : public Output {
   const std::vector<PointRow>& points(std::size_t index) const { return series_[index].points; }
   const std::vector<DischargeRow>& discharges(std::size_t index) const { return series_[index].discharges; }
   const std::vector<UpliftRow>& uplifts(std::size_t index) const { return series_[index].uplifts; }
+  const std::vector<SectionRow>& sections(std::size_t index) const { return series_[index].sections; }
   std::size_t count() const { return series_.size(); }
   const std::vector<ReportColumn>& columns(std::size_t index) const { return columns_[index]; }
 
@@ -185,6 +193,8 @@ class Reports final : public Output {
     std::vector<PointRow> points;
     std::vector<DischargeRow> discharges;
     std::vector<UpliftRow> uplifts;
+    std::vector<SectionRow> sections;
+    SectionSum section;         // of a cut, for the groups that are active now
     FlowLine line;              // of a discharge, in the present stage
     std::vector<double> more;   // numbers of Report::fields, a row behind the other
     Probe probe;                // of a point, in the present stage

@@ -9,6 +9,7 @@
 #include "sage/model/activity.hpp"
 #include "sage/model/flow_line.hpp"
 #include "sage/model/locate.hpp"
+#include "sage/model/section_cut.hpp"
 
 namespace sage {
 
@@ -126,6 +127,32 @@ void add_uplift(std::size_t i, const Reports& reports, std::vector<ReportCompone
     all.push_back({name_of(i, reports.columns(i)[k].name), last[k], std::abs(last[k]), k == 2});
 }
 
+// Sisters of a force are the others of all rows, those of a moment also the largest force times the length of the cut: a moment
+// that is nothing beside that is rounding.
+void add_section(const Model& model, std::size_t i, const Reports& reports, std::vector<ReportComponent>& all) {
+  const std::vector<ReportColumn>& columns = reports.columns(i);
+  const std::vector<double> last = reports.values(i, reports.rows(i) - 1);
+  std::map<std::string, double> largest;  // by unit
+  for (std::size_t row = 0; row < reports.rows(i); ++row) {
+    const std::vector<double> values = reports.values(i, row);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (std::abs(values[k]) > largest[columns[k].unit]) largest[columns[k].unit] = std::abs(values[k]);
+  }
+  const std::size_t forces = model.geometry == Geometry::axisymmetric ? 5 : 3;
+  double& moments = largest[columns[2].unit];
+  moments = std::max(moments, largest[columns[0].unit] * reports.sections(i).back().value.length);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all.push_back({name_of(i, columns[k].name), last[k], largest[columns[k].unit], k < forces});
+}
+
+// Empty where the cut meets a solid that is active at the end.
+std::string why_no_section(const Model& model, const Report& report) {
+  Activity activity(model);
+  for (const Stage& stage : model.stages) activity.enter(stage);
+  if (!cut_pieces(model, report.place, report.end, activity.group, report.group).empty()) return {};
+  return "no solid on its cut is active at the end";
+}
+
 // Empty where water flows through the line at the end.
 std::string why_no_discharge(const Model& model, const Report& report) {
   Activity activity(model);
@@ -146,6 +173,7 @@ std::vector<std::string> component_names(const Model& model) {
 std::string why_no_value(const Model& model, std::size_t index) {
   const Report& report = model.reports[index];
   if (report.kind == ReportKind::discharge) return why_no_discharge(model, report);
+  if (report.kind == ReportKind::section) return why_no_section(model, report);
   if (report.kind != ReportKind::point) return {};
   const std::string point = fmt::format("the point ({:.10g}; {:.10g})", report.place.x(), report.place.y());
   const std::vector<Location> found = Locator(model, kind_at_points(model)).at(report.place);
@@ -176,6 +204,7 @@ std::vector<ReportComponent> last_components(const Model& model, const Reports& 
       add_nodes(model, report, i, reports.nodes(i), all);
     if (report.kind == ReportKind::point && reports.rows(i) > 0) add_point(model, i, reports, all);
     if (report.kind == ReportKind::uplift && reports.rows(i) > 0) add_uplift(i, reports, all);
+    if (report.kind == ReportKind::section && reports.rows(i) > 0) add_section(model, i, reports, all);
     if (report.kind == ReportKind::discharge && reports.rows(i) > 0) add_discharge(model, i, reports, all);
   }
   return all;

@@ -13,7 +13,8 @@ struct ReportComponent {
   // What a reader of the report looks at first: the ratio of a triaxial test (its measured deviator where no
   // ratio is known); of nodes the force in the directions in which two or more of the deck's nodes are held,
   // and else the displacement (the reaction of one node alone vanishes with its share of the edge); of a point
-  // its displacement and stress, or heads and velocity where water alone flows; of a line the discharge.
+  // its displacement and stress, or heads and velocity where water alone flows; of a line the discharge; of a cut all
+  // forces and moments.
   bool main = false;
 };
 

@@ -96,6 +96,12 @@ void Frame::exchange_state(Archive& archive, bool whole) {
   archive(external_);
   archive(activity_.group);
   archive(activity_.held);
+  for (TurnedNode& node : activity_.turned) {
+    archive(node.by_xy);
+    for (TurnedNode::Axis& axis : node.axes) archive(axis.held);
+    archive(node.slides);
+    archive(node.slide);
+  }
   for (GroupData& data : groups_) {
     archive(data.active);
     PointStates& state = data.state.committed;

@@ -200,6 +200,23 @@ void uplift_table(std::string& text, const Model& model, std::size_t index, cons
                    cell(r.value.heave, "{:.4g}", 12, digits));
 }
 
+void section_table(std::string& text, const Model& model, std::size_t index,
+                   const std::vector<SectionRow>& rows, int digits) {
+  fmt::format_to(to(text), "  section {:<7}{:>7}{:>{}}{:>{}}{:>{}}   {}\n", index + 1, "incr",
+                 "axial [" + model.units.force + "]", wide(18, digits), "shear", wide(14, digits),
+                 "moment [" + unit_text(Dimension::moment, model.units) + "]", wide(18, digits),
+                 model.reports[index].name);
+  for (const SectionRow& r : chosen(rows)) {
+    const SectionForces& f = r.value;
+    const double force =
+        std::max({std::abs(f.axial), std::abs(f.shear), f.length > 0.0 ? std::abs(f.moment) / f.length : 0.0});
+    fmt::format_to(to(text), "    stage {:<5}{:>7}{}{}{}\n", r.stage, r.increment,
+                   cell(without_rounding(f.axial, force), "{:.5g}", 18, digits),
+                   cell(without_rounding(f.shear, force), "{:.5g}", 14, digits),
+                   cell(without_rounding(f.moment, force * f.length), "{:.5g}", 18, digits));
+  }
+}
+
 void report_tables(std::string& text, const Model& model, const Reports& reports, int digits) {
   std::size_t shown = 0, points = 0;
   for (std::size_t i = 0; i < reports.count(); ++i) {
@@ -212,6 +229,8 @@ void report_tables(std::string& text, const Model& model, const Reports& reports
       discharge_table(text, model, i, reports.discharges(i), digits);
     if (!reports.uplifts(i).empty() && shown++ < kReports)
       uplift_table(text, model, i, reports.uplifts(i), digits);
+    if (!reports.sections(i).empty() && shown++ < kReports)
+      section_table(text, model, i, reports.sections(i), digits);
     if (!reports.points(i).empty() && points++ < kPoints)
       point_table(text, model, i, reports.points(i), digits);
   }

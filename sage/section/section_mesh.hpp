@@ -56,7 +56,7 @@ struct PointMesh {
 };
 
 // Two nodes at one place that should move as one but must be two, since the pairs of an interface are two nodes.
-struct Tie {
+struct NodePair {
   enum class Kind {
     toe,   // the end of a beam inside the ground, asked for by LineEnd::tied
     end,   // the joined end of a line with interfaces but no beam: `second` belongs to nothing else
@@ -72,7 +72,7 @@ struct SectionMesh {
   std::vector<AreaMesh> areas;
   std::vector<LineMesh> lines;
   std::vector<PointMesh> points;
-  std::vector<Tie> ties;
+  std::vector<NodePair> ties;
   ElementShape shape = ElementShape::triangle;
   int nodes_per_edge = 3;
   bool by_gmsh = false;

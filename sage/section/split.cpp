@@ -304,7 +304,7 @@ class Splitter {
                          : -1;
     Around around(sectors + (beam >= 0 ? 1 : 0));
     for (const Segment* segment : passing) keep_apart(*segment, sides_of(*segment, fan, sector), beam, around);
-    std::vector<Tie> bonds;
+    std::vector<NodePair> bonds;
     for (const Segment* segment : passing) bond(*segment, sides_of(*segment, fan, sector), beam, around, bonds);
     give_nodes(node, fan, sector, beam, around, bonds);
   }
@@ -321,19 +321,19 @@ class Splitter {
   }
 
   // A beam shares the nodes of the ground on a side without interfaces.
-  void bond(const Segment& segment, Sides sides, int beam, Around& around, std::vector<Tie>& bonds) const {
+  void bond(const Segment& segment, Sides sides, int beam, Around& around, std::vector<NodePair>& bonds) const {
     if (!has_beam(segment)) return;
     for (const auto& [side, split] :
          {std::pair(sides.left, segment.left_split), {sides.right, segment.right_split}}) {
       if (side < 0 || split || around.join_if_allowed(beam, side)) continue;
-      const auto same = [&, side = side](const Tie& tie) { return tie.second == side; };
+      const auto same = [&, side = side](const NodePair& tie) { return tie.second == side; };
       if (std::none_of(bonds.begin(), bonds.end(), same))
-        bonds.push_back({beam, side, segment.line, Tie::Kind::bond});
+        bonds.push_back({beam, side, segment.line, NodePair::Kind::bond});
     }
   }
 
   void give_nodes(int node, const std::vector<int>& fan, const std::vector<int>& sector, int beam,
-                  const Around& around, const std::vector<Tie>& bonds) {
+                  const Around& around, const std::vector<NodePair>& bonds) {
     std::map<int, int> node_of_class;
     std::vector<int>& copies = copies_[node];
     const int items =
@@ -353,7 +353,7 @@ class Splitter {
       element.out[static_cast<std::size_t>(k)] = node_of[at(sector[i])];
     }
     if (beam >= 0) beam_nodes_[node] = node_of[at(beam)];
-    for (const Tie& tie : bonds) {
+    for (const NodePair& tie : bonds) {
       const int first = node_of[at(tie.first)], second = node_of[at(tie.second)];
       if (first != second) out_.ties.push_back({first, second, tie.line, tie.kind});
     }
@@ -426,7 +426,7 @@ class Splitter {
     if (node != same) return same;
     const int twin = add_node(Vector2(x_[at(node)]));
     copies_[original].push_back(twin);
-    out_.ties.push_back({node, twin, line, Tie::Kind::end});
+    out_.ties.push_back({node, twin, line, NodePair::Kind::end});
     return twin;
   }
 
@@ -471,7 +471,7 @@ class Splitter {
       const std::size_t k = last ? 1 : 0;
       const int left = nodes_of(segment.left, false)[k], right = nodes_of(segment.right, true)[k];
       const int beam = beam_of(segment)[k];
-      if (left >= 0 && left == right && left != beam) out_.ties.push_back({beam, left, l, Tie::Kind::toe});
+      if (left >= 0 && left == right && left != beam) out_.ties.push_back({beam, left, l, NodePair::Kind::toe});
     }
   }
 
@@ -518,7 +518,7 @@ class Splitter {
       std::for_each(point.nodes.begin(), point.nodes.end(), renumber);
       renumber(point.beam);
     }
-    for (Tie& tie : out_.ties) {
+    for (NodePair& tie : out_.ties) {
       renumber(tie.first);
       renumber(tie.second);
     }

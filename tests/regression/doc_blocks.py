@@ -8,7 +8,7 @@
         --prefix FOLDER   where sagefe is installed; pages that build against it are left out without, and no others are run
         --quick           without commands that take many seconds under sanitizers
 
-A block whose first line is ```KIND NAME is written to the file NAME.  Every line of a code block that begins with a command is run, in the order of the page
+A block whose first line is ```KIND NAME is written to the file NAME, in tutorials and in WITH_FILES.  Every line of a code block that begins with a command is run, in the order of the page
 and in a folder of its own beside the tree's decks; it must end with exit code 0.  Lines below a command that begins
 with "$ " must be printed, in their order, numbers to 0.5 %; "..." stands for any lines, and at the end of a line for
 its rest.
@@ -40,6 +40,7 @@ PAGES = [pathlib.Path(name).resolve() for name in WORDS if not name.startswith("
 COMMANDS = ("sagefe", "sed", "scripts/", "cmake", "ctest", "cp", "cd", "man", "export", "python3")
 # Commands that build or install: tests of their own run them (tests/install), or scripts/check_package.
 ELSEWHERE = ("scripts/", "ctest", "man ", "export ") if PREFIX else ("scripts/", "cmake", "ctest", "man ", "export ")
+WITH_FILES = {"structures"}  # pages of the manual whose named blocks are written too
 NEED_PYTHON, NEED_PREFIX = {"python_sweep"}, {"own_law"}
 DEAR = ("sagefe bounds slope",) if "--quick" in WORDS else ()
 # Of a page of the manual: what it takes for granted, and words of its commands that stand for something.
@@ -198,7 +199,7 @@ def run_page(page, folder):
         if run.returncode != 0:
             fail(page, 1, f"exit code {run.returncode} of {command}\n{run.stdout}{run.stderr}")
     for begin, block, name in blocks(page.read_text()):
-        if name and page.parent.name == "tutorial":
+        if name and (page.parent.name == "tutorial" or page.stem in WITH_FILES):
             (folder / name).write_text("\n".join(block) + "\n")
         if not block or not is_command(block[0]):
             continue

@@ -7,7 +7,7 @@ namespace sage {
 
 std::unique_ptr<Assembly> make_assembly(const Model& model, const Scene& scene, const Skips& skips,
                                         WorkCounters& work) {
-  if (skips.condensation && !scene.linear && DofMap(model).only_displacement())
+  if (skips.condensation && !scene.linear && DofMap(model).only_displacement() && !model.combines_dofs())
     return std::make_unique<CondensedAssembly>(model, scene, skips, work);
   return std::make_unique<AssemblyByRegions>(model, scene, skips, work);
 }

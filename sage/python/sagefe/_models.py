@@ -50,14 +50,18 @@ class Group:
 
 
 class Support:
-    """Supports of nodes: "fixed", "released" or "" (as before) along x and y, with displacements of the stage."""
+    """Supports of nodes: "fixed", "released" or "" (as before) along x and y, with displacements of the stage.
+
+    With an angle (degrees, anticlockwise from x), x is along a line at this angle and y normal to it.
+    """
 
     def __init__(self, nodes: ArrayLike, x: str = "", y: str = "", *, x_value: float = 0.0, y_value: float = 0.0,
-                 unknown: str = "") -> None:
+                 unknown: str = "", angle: float = 0.0) -> None:
         self.nodes = _whole(nodes)
         self.x, self.y = x, y
         self.x_value, self.y_value = float(x_value), float(y_value)
         self.unknown = unknown
+        self.angle = float(angle)
 
 
 class Load:
@@ -116,7 +120,7 @@ class Stage:
 
 @dataclass
 class ReportOf:
-    """A report: kind "triaxial", "nodes", "point", "discharge" or "uplift"."""
+    """A report: kind "triaxial", "nodes", "point", "discharge", "uplift" or "section" (place and end)."""
 
     kind: str
     nodes: Sequence[int] = ()
@@ -127,6 +131,7 @@ class ReportOf:
     cell_pressure: float = 0.0
     place: Tuple[float, float] = (0.0, 0.0)
     name: str = ""
+    end: Tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass

@@ -361,6 +361,15 @@ const std::vector<Row>& rows() {
          m.units.water_unit_weight = 9.81;
          m.reports.push_back(report(ReportKind::uplift));
        }},
+      {"report of a section",
+       {"", kReports, kReports},
+       [](Model& m) {
+         m.reports.push_back(report(ReportKind::section));
+         m.reports[0].name = "slab";
+         m.reports[0].nodes.clear();
+         m.reports[0].place = {0.5, 0.0};
+         m.reports[0].end = {0.75, 1.0};
+       }},
       {"fields of a point",
        {"further fields", kReports, kReports},
        [](Model& m) {
@@ -508,8 +517,8 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [group, element, edge, normal, shear, line, history] = one;
 }
 [[maybe_unused]] void known(const Report& one) {
-  [[maybe_unused]] const auto& [kind, group, nodes, height, area, cell_pressure, place, name, fields, stage,
-                                where] = one;
+  [[maybe_unused]] const auto& [kind, group, nodes, height, area, cell_pressure, place, end, name, fields,
+                                stage, where] = one;
 }
 
 }  // namespace

@@ -246,10 +246,15 @@ TEST(WideLayout, IsSage1WithWideFields) {
   const Layout narrow = load_layout("sage1"), wide = load_layout("sage1_wide");
   ASSERT_EQ(wide.cards.size(), narrow.cards.size());
   const std::map<std::string, std::pair<std::size_t, const char*>> behind{
-      {"element", {7, ",7I10"}},     {"stage", {11, ",2F20.0,I10,2F20.0,I10,3F20.0,2A80"}},
-      {"initial", {2, ",I10,A40"}},  {"stage_initial", {2, ",I10,A40"}},
-      {"stage_fixity", {1, ",A80"}}, {"load", {1, ",A80"}},
-      {"pressure", {2, ",A20,A80"}}, {"group", {1, ",I10"}},
+      {"element", {7, ",7I10"}},
+      {"stage", {11, ",2F20.0,I10,2F20.0,I10,3F20.0,2A80"}},
+      {"initial", {2, ",I10,A40"}},
+      {"stage_initial", {2, ",I10,A40"}},
+      {"stage_fixity", {2, ",A80,F20.0"}},
+      {"fixity", {1, ",F20.0"}},
+      {"load", {1, ",A80"}},
+      {"pressure", {2, ",A20,A80"}},
+      {"group", {1, ",I10"}},
       {"material", {1, ",F20.0"}}};
   for (std::size_t i = 0; i < wide.cards.size(); ++i) {
     const std::string& key = narrow.cards[i].key;

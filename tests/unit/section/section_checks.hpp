@@ -160,8 +160,8 @@ class MeshCheck {
   }
 
   bool ends_in_twin(const std::array<int, 6>& n) const {
-    return std::any_of(mesh_.ties.begin(), mesh_.ties.end(), [&](const Tie& tie) {
-      return tie.kind == Tie::Kind::end && (tie.second == n[2] || tie.second == n[3]);
+    return std::any_of(mesh_.ties.begin(), mesh_.ties.end(), [&](const NodePair& tie) {
+      return tie.kind == NodePair::Kind::end && (tie.second == n[2] || tie.second == n[3]);
     });
   }
 

@@ -145,7 +145,7 @@ TEST(SectionMesh, TheToeCanBeTiedOrOpen) {
     ASSERT_EQ(mesh.ties.size(), 1U);
     EXPECT_EQ(mesh.ties[0].first, mesh.lines[0].beam.back());
     EXPECT_EQ(mesh.ties[0].second, mesh.lines[0].left.back());
-    EXPECT_EQ(mesh.ties[0].kind, Tie::Kind::toe);
+    EXPECT_EQ(mesh.ties[0].kind, NodePair::Kind::toe);
   });
   section.lines[0].last_end = LineEnd::open;
   with_all_kinds(section, [](const SectionMesh& mesh) {
@@ -210,7 +210,7 @@ TEST(SectionMesh, AJointThatEndsInsideIsOpenOrTied) {
     const MeshCheck check(mesh);
     EXPECT_NEAR(check.free_length(), 16.0 + 2 * 2, 1e-9);
     ASSERT_EQ(mesh.ties.size(), 1U);
-    EXPECT_EQ(mesh.ties[0].kind, Tie::Kind::end);
+    EXPECT_EQ(mesh.ties[0].kind, NodePair::Kind::end);
     EXPECT_EQ(mesh.lines[0].left.back(), mesh.lines[0].right.back());
   });
 }
