@@ -580,7 +580,10 @@ void add_notes(Comparison& c, const Side& a, const Side& b) {
   };
   const bool same_elements = elements(ma) == elements(mb), same_laws = laws(ma) == laws(mb);
   if (ma.geometry == mb.geometry && same_laws && same_mesh(a, b)) {
-    if (same_elements)
+    if (ma.large_strain != mb.large_strain)
+      c.notes.push_back(
+          "Large strain and small strain: another theory, whose answers come together as motions get small.");
+    else if (same_elements)
       c.notes.push_back(
           "Same mesh, elements, laws and geometry: the equations are the same, and theory expects "
           "differences of rounding and of the tolerance of equilibrium only.");

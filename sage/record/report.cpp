@@ -256,7 +256,8 @@ SpecimenStart start_of_specimen(const Model& model, const Report& report, const 
   SpecimenStart start;
   const std::span<const GroupData> groups = solution.groups();
   const auto at = static_cast<std::size_t>(report.group);
-  if (report.group < 0 || at >= groups.size() || has_constant_stiffness(groups[at].law)) return start;
+  if (report.group < 0 || at >= groups.size()) return start;
+  if (!model.large_strain && has_constant_stiffness(groups[at].law)) return start;
   const StateStore& state = groups[at].state;
   if (state.law_size() != 4) return start;
   const auto history = static_cast<std::size_t>(state.history_size());

@@ -224,6 +224,16 @@ const std::vector<Row>& rows() {
       {"support of a node",
        {"", "held node(s) that are no whole edge", ""},
        [](Model& m) { m.fixities.push_back(held(4, FixityCode::fixed)); }},
+      {"support along a turned line",
+       {"", "supports along turned lines", "supports along turned lines"},
+       [](Model& m) {
+         m.turned_fixities.push_back({held(4, FixityCode::fixed), 30.0});
+       }},
+      {"support along a turned line in a stage",
+       {"", "supports along turned lines", "supports along turned lines"},
+       [](Model& m) {
+         first(m).turned_fixities.push_back({held(4, FixityCode::fixed, 0.01), 30.0});
+       }},
       {"initial stress",
        {"", "initial stress", "initial stresses"},
        [](Model& m) {
@@ -467,8 +477,8 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 // What has none needs none: it follows from the rest, or is about the deck and not about the problem.
 [[maybe_unused]] void known(const Model& one) {
   [[maybe_unused]] const auto& [file, title, geometry, units, solver, large_strain, fields, mesh, materials,
-                                groups, unknowns, fixities, field_fixities, initials, stages, water, reports,
-                                diagnostics, left_out, plugins] = one;
+                                groups, unknowns, fixities, turned_fixities, ties, field_fixities, initials,
+                                stages, water, reports, diagnostics, left_out, plugins] = one;
 }
 [[maybe_unused]] void known(const UnitSystem& one) {
   [[maybe_unused]] const auto& [length, force, stress, p_a, gamma_w] = one;
@@ -500,9 +510,9 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
 [[maybe_unused]] void known(const Stage& one) {
   [[maybe_unused]] const auto& [number, title, increments, duration, pores, theta, grading, time_error,
                                 end_degree, end_pressure, output_times, ends, divisions, method, max_iterations,
-                                output_every, output_at, tolerance, gravity, fixities, loads, field_fixities,
-                                field_loads, exits, pressures, births, deaths, initials, strength_factor,
-                                resets_displacements, control, where] = one;
+                                output_every, output_at, tolerance, gravity, fixities, turned_fixities, loads,
+                                field_fixities, field_loads, exits, pressures, births, deaths, initials,
+                                strength_factor, resets_displacements, control, where] = one;
 }
 [[maybe_unused]] void known(const LoadControl& one) {
   [[maybe_unused]] const auto& [node, other, component, growth] = one;
