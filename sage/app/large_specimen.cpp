@@ -10,7 +10,7 @@ namespace sage::app {
 namespace {
 
 constexpr double kRadius = 1.4;
-const UnitSystem kUnits{"in", "lbf", "psi", 14.696, 0.036111};
+const UnitSystem kInchUnits{"in", "lbf", "psi", 14.696, 0.036111};
 // With the reduced rule Newton's method stalls where a side rolls onto a platen.
 LatticeMesh mesh_of(const LargeSpecimen& specimen) {
   const int rows = std::max(1, static_cast<int>(std::lround(specimen.columns * specimen.slenderness)));
@@ -90,7 +90,7 @@ ModelInput large_specimen_input(const LargeSpecimen& specimen, double strain, in
   ModelInput input;
   input.name = input.title = "specimen between rigid platens, large strain";
   input.geometry = Geometry::axisymmetric;
-  input.units = kUnits;
+  input.units = kInchUnits;
   input.large_strain = true;
   input.materials = {specimen.soil};
   mesh.write(input);

@@ -40,20 +40,7 @@ FieldSpec field(const std::string& name, const std::string& label, FieldKind kin
   return spec;
 }
 
-void lengthen_cards(Layout& layout) {
-  std::vector<FieldSpec> nodes;
-  for (int i = 9; i <= kWideNodes; ++i)
-    nodes.push_back(field("n" + std::to_string(i), "node " + std::to_string(i), FieldKind::integer));
-  lengthen(layout, "element", std::to_string(nodes.size()) + "I10", nodes);
-  FieldSpec saturated = field("saturated_unit_weight",
-                              "saturated unit weight, of solids below phreatic lines (water cards of kind 1); "
-                              "blank = the unit weight",
-                              FieldKind::real);
-  saturated.unit = "force/length^3";
-  lengthen(layout, "material", "F20.0", {saturated});
-  lengthen(layout, "group", "I10",
-           {field("second_material", "material number of the second law, of elements that have two",
-                  FieldKind::integer)});
+void lengthen_stage(Layout& layout) {
   lengthen(
       layout, "stage", "2F20.0,I10,2F20.0,I10,3F20.0,2A80",
       {field("duration", "time that the stage lasts, for laws that depend on it; blank = 1", FieldKind::real),
@@ -79,6 +66,23 @@ void lengthen_cards(Layout& layout) {
              "displacement that controls the load: node, x or y, and its growth over the stage, as 12 y -0.05; "
              "12 15 y 0.02 is that of node 12 less that of node 15",
              FieldKind::text)});
+}
+
+void lengthen_cards(Layout& layout) {
+  std::vector<FieldSpec> nodes;
+  for (int i = 9; i <= kWideNodes; ++i)
+    nodes.push_back(field("n" + std::to_string(i), "node " + std::to_string(i), FieldKind::integer));
+  lengthen(layout, "element", std::to_string(nodes.size()) + "I10", nodes);
+  FieldSpec saturated = field("saturated_unit_weight",
+                              "saturated unit weight, of solids below phreatic lines (water cards of kind 1); "
+                              "blank = the unit weight",
+                              FieldKind::real);
+  saturated.unit = "force/length^3";
+  lengthen(layout, "material", "F20.0", {saturated});
+  lengthen(layout, "group", "I10",
+           {field("second_material", "material number of the second law, of elements that have two",
+                  FieldKind::integer)});
+  lengthen_stage(layout);
   for (const char* card : {"stage_fixity", "load"})
     lengthen(
         layout, card, "A80",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -68,19 +69,19 @@ namespace {
 
 // Without those of lines of contact, which may be longer than what stands on them: where no other is left, the specimen's.
 std::vector<int> nodes_of_area(const Model& model, const Report& report) {
-  std::vector<char> of_bodies(static_cast<std::size_t>(model.mesh.nodes()), 0);
-  bool contact = false;
-  for (const Group& group : model.groups) {
-    if (is_contact(*group.entry)) {
-      contact = true;
-      continue;
-    }
-    for (const int node : group.nodes) of_bodies[node] = 1;
-  }
-  if (!contact) return report.nodes;
+  // Decks with mistakes have groups of unknown elements.
+  const auto is_of_contact = [](const Group& group) {
+    return group.entry != nullptr && is_contact(*group.entry);
+  };
+  if (std::ranges::none_of(model.groups, is_of_contact)) return report.nodes;
+  std::set<int> of_bodies;
+  for (const Group& group : model.groups)
+    if (!is_of_contact(group)) of_bodies.insert(group.nodes.begin(), group.nodes.end());
   std::vector<int> nodes = report.nodes;
-  std::erase_if(nodes, [&](int node) { return of_bodies[node] == 0; });
-  return nodes.empty() && report.group >= 0 ? model.groups[report.group].nodes : nodes;
+  std::erase_if(nodes, [&](int node) { return !of_bodies.contains(node); });
+  if (nodes.empty() && report.group >= 0) nodes = model.groups[report.group].nodes;
+  std::erase_if(nodes, [&](int node) { return node < 0 || node >= model.mesh.nodes(); });  // not made yet
+  return nodes;
 }
 
 }  // namespace

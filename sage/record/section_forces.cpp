@@ -14,7 +14,7 @@ namespace sage {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoForce = std::numeric_limits<double>::quiet_NaN();
 
 // Points of a piece.  The smooth stress of quadratic elements has degree 5 along a line, an element's own that of its shape
 // functions, at most twice its degree; the arm and the radius add one each.
@@ -84,9 +84,9 @@ SectionForces SectionSum::forces(const Model& model, const Solution& solution) c
     other[1] += one.other[0] * tangential;
     other[2] += one.other[1] * normal;
   }
-  if (terms_.empty()) sum.axial = sum.shear = sum.moment = sum.hoop = sum.hoop_moment = kNone;
+  if (terms_.empty()) sum.axial = sum.shear = sum.moment = sum.hoop = sum.hoop_moment = kNoForce;
   const double used[3] = {sum.axial, sum.shear, sum.moment};
-  for (int i = 0; i < 3; ++i) sum.error[i] = estimates_ ? other[i] - used[i] : kNone;
+  for (int i = 0; i < 3; ++i) sum.error[i] = estimates_ ? other[i] - used[i] : kNoForce;
   return sum;
 }
 
