@@ -508,15 +508,15 @@ void bad_stages(Cases& c) {
                {"group 3 is born twice"}});
   c.push_back(
       {"report_kind_unknown",
-       b.with("report", card({"6", "1", "7", "9", "1", "1"}, {"1."})),
+       b.with("report", card({"7", "1", "7", "9", "1", "1"}, {"1."})),
        "report:1-5",
-       {"the kind of report can't be 6", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
+       {"the kind of report can't be 7", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
   // The card behind it looks like that of a point: the fault is the kind all the same.
   c.push_back(
       {"report_kind_unknown_before_a_point",
-       b.with("report", card({"6"})).behind("report", "point", card({}) + "        .5        .5middle"),
+       b.with("report", card({"7"})).behind("report", "point", card({}) + "        .5        .5middle"),
        "report:1-5",
-       {"the kind of report can't be 6", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
+       {"the kind of report can't be 7", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
   c.push_back({"point_behind_sums_over_nodes",
                b.with("report", card({"2", "", "7", "9"}))
                    .behind("report", "point", card({}) + "        .5        .5middle"),

@@ -377,8 +377,8 @@ const std::vector<Row>& rows() {
          m.reports.push_back(report(ReportKind::section));
          m.reports[0].name = "slab";
          m.reports[0].nodes.clear();
-         m.reports[0].place = {0.5, 0.0};
-         m.reports[0].end = {0.75, 1.0};
+         m.reports[0].place = {1.25, 0.25};
+         m.reports[0].end = {1.75, 0.75};
        }},
       {"fields of a point",
        {"further fields", kReports, kReports},

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <map>
 #include <random>
 #include <set>
@@ -434,10 +435,15 @@ TEST(Guess, DamagedDecks) {
   }
 }
 
+// Of this process, the least of three: other work on the machine, which shares caches, must not count.
 double seconds_for(const std::string& text) {
-  const std::clock_t start = std::clock();  // of this process: other work on the machine must not count
-  draft_layout(text, "large.dat", "large");
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const std::clock_t start = std::clock();
+    draft_layout(text, "large.dat", "large");
+    least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  return least;
 }
 
 std::string many(int lines, const std::function<std::string(int)>& line) {
@@ -465,9 +471,8 @@ TEST(Guess, TimeIsLinear) {
       {"blanks", [](int i) { return std::string(i % 2 ? "" : "1 2"); }},
       {"jumping columns", [](int i) { return std::string(static_cast<std::size_t>(i % 60), ' ') + "1   2"; }}};
   for (const auto& [name, line] : kinds) {
-    const double small = std::max(seconds_for(many(20000, line)), 0.02),
-                 large = seconds_for(many(100000, line));
-    std::printf("%-20s 20000 lines %.3f s, 100000 lines %.3f s\n", name.c_str(), small, large);
+    const double small = std::max(seconds_for(many(50000, line)), 0.02), large = seconds_for(many(250000, line));
+    std::printf("%-20s 50000 lines %.3f s, 250000 lines %.3f s\n", name.c_str(), small, large);
     EXPECT_LT(large, 10.0 * small) << name;
   }
   std::string wide(300000, ' ');
