@@ -471,7 +471,8 @@ TEST(Guess, TimeIsLinear) {
       {"blanks", [](int i) { return std::string(i % 2 ? "" : "1 2"); }},
       {"jumping columns", [](int i) { return std::string(static_cast<std::size_t>(i % 60), ' ') + "1   2"; }}};
   for (const auto& [name, line] : kinds) {
-    const double small = std::max(seconds_for(many(50000, line)), 0.02), large = seconds_for(many(250000, line));
+    const double small = std::max(seconds_for(many(50000, line)), 0.02),
+                 large = seconds_for(many(250000, line));
     std::printf("%-20s 50000 lines %.3f s, 250000 lines %.3f s\n", name.c_str(), small, large);
     EXPECT_LT(large, 10.0 * small) << name;
   }
