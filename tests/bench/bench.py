@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Run time against error, peers, growth and what the program leaves out: one command, CSV, Markdown and plots.
+"""Run time against error and against size, other programs, and the effect of optimisations: one command, CSV, Markdown and plots.
 
 Usage: bench.py SAGEFE [-o FOLDER] [--only TABLE,...] [--runs N] [--largest N] [--threads N] [--no-peers]
        bench.py SAGEFE --quick        a few seconds, the smallest meshes, to see that everything works
 
 All tables take about 40 minutes.  With --only the others stay as they are: every table is kept in FOLDER/benchmarks/tables.json
-with its options, and FOLDER/benchmarks.md is written from there.
+with its texts, options and date, and FOLDER/benchmarks.md is written from there.
 
 Times are those of whole processes, medians of several runs; programs take turns on each scene and mesh, and ratios are between medians of the same
 command.  CalculiX, FreeFEM and dolfinx take part where they are installed.  Nothing here passes or fails on a clock; a wrong
@@ -29,6 +29,7 @@ import peers
 import pictures
 import precision
 import same_mesh
+import scenes
 import shipped
 
 # In the order of the page: what --only takes, and what measures it.  Each gives {key: Table} and may draw charts.
@@ -69,10 +70,13 @@ class Bench:
         return ["--threads", str(self.args.threads)]
 
 
-def with_threads(bench, table):
-    count = bench.args.threads
-    threads = f" N = {count}, libraries and peers as well." if "--threads N" in table.options else ""
-    return f"{table.options}{threads} Median of {bench.args.runs} runs."
+def with_threads(options, threads, runs):
+    """runs: how many, or words where they are not the same for all rows."""
+    words = f"Each time is the median of {runs} runs." if isinstance(runs, int) else runs
+    if "--threads N" not in options:
+        return f"{options} {words}"
+    every = "one thread" if threads == 1 else f"{threads} threads"
+    return f"{options.replace('--threads N', f'--threads {threads}')} All programs and their libraries use {every}. {words}"
 
 
 def run_parts(bench, names):
@@ -86,7 +90,8 @@ def run_parts(bench, names):
         tables = PARTS[name](bench)
         for key, table in tables.items():
             found[key] = dataclasses.asdict(table)
-            found[key].update(part=name, options=with_threads(bench, table), notes=[], charts=[], machine=measure.machine(), dgemm=peak)
+            options = with_threads(table.options, bench.args.threads, table.runs or bench.args.runs)
+            found[key].update(part=name, options=options, notes=[], charts=[], machine=measure.machine(), dgemm=peak, date=time.strftime("%Y-%m-%d"))
         found[list(tables)[-1]]["notes"] = bench.notes
         print(f"  {name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
     return found
@@ -98,19 +103,33 @@ def prose(words):
     return textwrap.fill(whole, 100, subsequent_indent="  " * words.startswith("- "), break_long_words=False, break_on_hyphens=False).replace("\0", " ")
 
 
+INTRODUCTION = (
+    "`scripts/bench` (`tests/bench/bench.py`) writes this page, and every number is a result of it. The tables compare sagefe with CalculiX, FreeFEM and dolfinx, and show how its run time depends on the error, on the "
+    "size of the problem and on its optimisations. [What bounds the run time](theory/speed.md) explains some of the times."
+)
+MEASURED = (
+    "*Wall* is elapsed time. *Processor* is the processor time of all threads of a process. Unless a table states otherwise, both are those of a whole process: start, input, computation and output. "
+    "The programs of a table run in turn, after one run of each that is not counted. Each time is the median of several such runs; there are fewer runs if one takes more than three seconds. A ratio of two times divides medians that were measured in the same call of `scripts/bench`. "
+    "On another machine the times differ, so compare ratios only."
+)
+ELEMENTS = (
+    "Names of elements and formulations are those of sagefe ([elements](theory/elements.md)). `quad25` and `quad49` are quadrilaterals of degree 4 and 6. `CAX4`, `CAX8` and `CAX8R` are quadrilaterals of CalculiX with 4 and 8 nodes in axisymmetry, `CPE4`, `CPE8` and `CPE8R` those in plane strain; R is reduced integration. "
+    "`P1` and `P2` are triangles of FreeFEM of degree 1 and 2, two for each quadrilateral of sagefe. `Q1`, `Q2`, `Q4` and `Q6` are quadrilaterals of dolfinx of that degree."
+)
+
+
 def header(kept, versions):
-    text = ["# Benchmarks: run time against error", ""]
-    text += ["Written by `scripts/bench` (`tests/bench/bench.py`); every number comes from there.", ""]
-    text += [prose("Times are those of whole processes. Programs run in turn, and ratios are between medians of one command. Only ratios apply to other machines. What bounds them: `docs/theory/speed.md`."), ""]
+    text = ["# Benchmarks: run time against error", "", prose(INTRODUCTION), "", "## How the times were measured", "", prose(MEASURED), ""]
     text += [f"- Machine: {name}" for name in sorted({table["machine"] for table in kept.values()})]
     speeds = [table["dgemm"] for table in kept.values() if table["dgemm"]]
     if speeds:
         between = f"{min(speeds):.0f}" + (f" to {max(speeds):.0f}" if max(speeds) > 1.02 * min(speeds) else "")
-        text.append(prose(f"- DGEMM of numpy with OpenBLAS on the tables' threads, matrices of 1500 x 1500: {between} GF/s"))
+        text.append(prose(f"- For comparison: products of matrices of 1500 x 1500 (DGEMM of numpy with OpenBLAS, on as many threads as the programs) reach {between} GF/s, that is 1e9 floating-point operations per second"))
     for name in ("CalculiX", "FreeFEM", "dolfinx"):
-        text.append(f"- {name}: {versions[name] if name in versions else 'not there, left out'}")
-    text.append(prose("- CalculiX has no Tresca law. It computes the strip with von Mises, which has the same collapse load in plane strain, on the coarsest mesh only (longer than sagefe on all of them)."))
-    text += ["- FreeFEM has no law of plasticity: no footings.", ""]
+        text.append(f"- {name}: {versions[name] if name in versions else 'not installed, so its columns are empty'}")
+    text.append(prose("- CalculiX has no Tresca law. It computes the strip footings with von Mises, which has the same collapse load in plane strain, and only on the coarsest mesh."))
+    text.append(prose("- FreeFEM has no law of plasticity, so it computes no footings."))
+    text += ["", "## Problems, decks and elements", "", prose(scenes.WHAT_IS_COMPARED), "", scenes.problems(), prose(shipped.WHAT_DECKS_ARE), "", shipped.decks(), prose(ELEMENTS), ""]
     return text
 
 
@@ -120,7 +139,10 @@ def page(kept, versions):
         if key not in kept:
             continue
         table = kept[key]
-        text += [f"## {table['title']}", "", prose(table["note"]), "", prose(f"Options: {table['options']}"), ""]
+        recorded = f" Recorded {table['date']}." if "date" in table else ""
+        text += [f"## {table['title']}", "", *(line for part in table["note"].split("\n\n") for line in (prose(part), "")), prose(f"Options: {table['options']}{recorded}"), ""]
+        if "remark" in table:  # written by hand into tables.json; gone with the next measurement
+            text += [prose(table["remark"]), ""]
         text += [measure.markdown(table["head"], table["rows"])]
         text += [f"![{title}](benchmarks/{name})" for title, name in table["charts"]] + [""] * bool(table["charts"])
         if table["notes"]:

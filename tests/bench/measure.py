@@ -157,6 +157,7 @@ class Table:
     options: str  # of `sagefe run`, and of the peers where they take part
     head: list
     rows: list
+    runs: object = None  # how many, or in words; None: as many as the command asks for
 
 
 def markdown(head, rows):

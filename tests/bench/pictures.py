@@ -8,19 +8,13 @@ import pathlib
 import re
 
 import chart
+import growth as growth_tables
+import nonlinear as nonlinear_tables
 import scenes
 
-# Tables of accuracy for time, and those of growth, by the name of their CSV file.
-NONLINEAR = {
-    "collapse": "Accuracy for time: collapse load of a strip footing",
-    "ratio": "Accuracy for time: Drucker-Prager specimen to 15 %",
-    "history": "Accuracy for time: history on an interface",
-}
-GROWTH = {
-    "scaling": "Growth: linear",
-    "interface": "Growth: elastic body on an interface",
-    "footing": "Growth: Mohr-Coulomb footing",
-}
+# Tables of error against run time, and those of run time against size, by the name of their CSV file.
+NONLINEAR = {"collapse": nonlinear_tables.COLLAPSE_TITLE, "ratio": nonlinear_tables.RATIO_TITLE, "history": nonlinear_tables.HISTORY_TITLE}
+GROWTH = {"scaling": growth_tables.SCALING_TITLE, "interface": growth_tables.INTERFACE_TITLE, "footing": growth_tables.FOOTING_TITLE}
 
 
 def rows_of(file):
@@ -47,7 +41,7 @@ def nonlinear(key, rows):
         beside = row["varied"] != "mesh"
         name = f"{row['varied']}: {row['element']}, {row['mesh']}" if beside else row["element"]
         point = (1e-3 * float(row["processor ms"]), float(row["error"]))
-        by_scene.setdefault(row["scene"], {}).setdefault((name, beside), []).append(point)
+        by_scene.setdefault(row["problem"], {}).setdefault((name, beside), []).append(point)
     for scene, lines in by_scene.items():
         title = f"{NONLINEAR[key]}: {scene}"
         file = f"nonlinear_{key}_{re.sub(r'[^a-z]+', '_', scene.lower())}.svg"

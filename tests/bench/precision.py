@@ -122,6 +122,12 @@ def find(points, scene, program, variant, mesh):
     return next((p for p in points if (p.scene, p.program, p.variant, p.mesh) == (scene, program, variant, mesh)), None)
 
 
+SAME_MESH_TITLE = "The same mesh, all problems"
+SAME_MESH_NOTE = "Wall time of whole processes, with all output of sagefe. A ratio is the time of the other program over that of sagefe on the same cells (FreeFEM divides each cell into two triangles)."
+SAME_MESH_OPTIONS = "`sagefe run --element ... --formulation ... --threads N`."
+SAME_MESH_HEAD = ["problem", "element", "n", "sagefe ms", "error of sagefe", "CalculiX ms", "ratio", "error of CalculiX", "FreeFEM ms", "ratio", "error of FreeFEM"]
+
+
 def equal_mesh(points):
     pairs = [("quad4 full", ("CAX4", "CPE4"), "P1"), ("quad8 reduced", ("CAX8R", "CPE8R"), "P2"), ("quad8 full", ("CAX8", "CPE8"), "P2")]
     rows = []
@@ -137,9 +143,21 @@ def equal_mesh(points):
                 for p in (ccx, ff):
                     row += [f"{p.variant} {ms(p.seconds)}", f"{p.seconds / mine.seconds:.1f}", f"{p.error:.1e}"] if p else ["-"] * 3
                 rows.append(row)
-    head = ["scene", "element", "n", "sagefe ms", "error", "CalculiX ms", "ratio", "error", "FreeFEM ms", "ratio", "error"]
-    note = "Wall time of whole processes, the listing of sagefe included. Ratio: time of the peer over that of sagefe on the same cells (FreeFEM cuts each into two triangles)."
-    return Table("The same mesh", note, "`sagefe run --element ... --formulation ... --threads N`.", head, rows)
+    return Table(SAME_MESH_TITLE, SAME_MESH_NOTE, SAME_MESH_OPTIONS, SAME_MESH_HEAD, rows)
+
+
+MESHES = (
+    "A mesh is `7`, that is n = 7, or graded. `1, 4 layers` is a mesh with n = 1 that sagefe grades towards singular corners by 4 layers of elements, each 0.15 times as thick as the one before (`--grade auto:4:0.15`). "
+    "`4 x 4, power 3` is a mesh of 4 x 4 cells for the other programs, whose lines are at 1 - (1 - s)^3 of the width and of the height, s = 0, 1/4, 1/2, 3/4, 1."
+)
+SAME_ERROR_TITLE = "The same error"
+SAME_ERROR_NOTE = (
+    "For each problem and each limit of the error, the fastest run of each program whose error is within the limit. Times are wall times of whole processes, and a ratio is the time of the other program over that of sagefe. If no run reaches the limit, the cell has the smallest error of the program and the time of that run in milliseconds.\n\n"
+    + MESHES + "\n\n"
+    "FreeFEM has such graded meshes for the pinned specimens and Cook's membrane, CalculiX for the pinned specimens only. All meshes of footings get smaller towards the edge of the footing. `lame` has no singular corner, so its meshes are uniform."
+)
+SAME_ERROR_OPTIONS = "`sagefe run --element ... [--formulation ...] [--grade auto:LAYERS:0.15] --threads N`."
+SAME_ERROR_HEAD = ["problem", "error at most", "sagefe ms", "element and mesh of sagefe", "CalculiX ms (element, mesh)", "ratio", "FreeFEM ms (element, mesh)", "ratio"]
 
 
 def equal_error(points):
@@ -166,12 +184,7 @@ def equal_error(points):
                 else:
                     row += ["-", "-"]
             rows.append(row)
-    note = (
-        "The fastest run of each program within the error, wall time of whole processes. Every program has uniform meshes and meshes graded towards the singular corners. "
-        "The meshes of sagefe have layers, each 0.15 times the size of the one before. Those of the others vary as the third power of the position (CalculiX not for Cook's membrane; none for footings, whose mesh is graded already)."
-    )
-    head = ["scene", "error <=", "sagefe ms", "with", "CalculiX ms", "ratio", "FreeFEM ms", "ratio"]
-    return Table("The same error", note, "`sagefe run --element ... [--formulation ...] [--grade auto:LAYERS:0.15] --threads N`.", head, rows)
+    return Table(SAME_ERROR_TITLE, SAME_ERROR_NOTE, SAME_ERROR_OPTIONS, SAME_ERROR_HEAD, rows)
 
 
 def wrong(points):
@@ -209,6 +222,17 @@ def graded_points(bench, scene):
     return points
 
 
+GRADED_TITLE = "The same error, graded meshes of all programs"
+GRADED_NOTE = (
+    "Pinned specimens on graded meshes, with dolfinx: for each limit of the error, the fastest run of each program within it, with the best element and number of cells or layers. The lines of the meshes of dolfinx are at 1 - (1 - s)^p, with p = 3 for Q2, 4 for Q4 and 5 for Q6.\n\n"
+    "*error of* names the value whose relative error is limited: the ratio, or the effect of the rough ends, which is ratio - 1. The effect is .018 to .19, so the same accuracy of the ratio is a much larger relative error of the effect.\n\n"
+    "Times are processor times in milliseconds, of whole processes of sagefe, CalculiX and FreeFEM. The time of dolfinx is that from the mesh to the answer, without the start of Python, imports and compilation; the last column compares it with the whole process of sagefe."
+)
+GRADED_OPTIONS = "`sagefe run --element quad25|quad49 --grade auto:LAYERS:0.15 --threads N`."
+GRADED_HEAD = [
+    "problem", "error of", "error at most", "sagefe ms", "element and mesh of sagefe", "CalculiX ms (element, mesh)", "FreeFEM ms (element, mesh)", "dolfinx ms, mesh to answer", "faster of CalculiX and FreeFEM over sagefe", "dolfinx over sagefe"]
+
+
 def graded(bench):
     """Processor times: both programs on one thread, and less noise."""
     rows = []
@@ -217,12 +241,7 @@ def graded(bench):
         for measure, scale in (("ratio", 1.0), ("effect", scene.reference / (scene.reference - 1))):
             for target in (1e-3, 1e-4, 1e-5):
                 rows.append(graded_row(scene.name, measure, target, [p for p in points if p.error * scale <= target]))
-    head = ["scene", "of the", "error <=", "sagefe ms", "with", "CalculiX ms", "FreeFEM ms", "dolfinx ms, mesh to answer", "fastest whole process over sagefe", "dolfinx over sagefe"]
-    note = (
-        "Pinned specimens, both sides graded, each with its best element and number of cells or layers: the fastest run within the error. Error of the ratio, or of the effect of the ends, ratio - 1, which is a "
-        "small part of it. Processor milliseconds: whole processes; dolfinx without the start of Python, imports and compilation, set against the whole process of sagefe."
-    )
-    return {"graded": Table("The same error, all meshes graded", note, "`sagefe run --element quad25|quad49 --grade auto:LAYERS:0.15 --threads N`.", head, rows)}
+    return {"graded": Table(GRADED_TITLE, GRADED_NOTE, GRADED_OPTIONS, GRADED_HEAD, rows)}
 
 
 def graded_row(name, measure, target, within):
@@ -241,6 +260,15 @@ def graded_row(name, measure, target, within):
 # ------------------------------------------------------------------------------------------------- solvers
 
 
+SOLVERS_TITLE = "Solvers"
+SOLVERS_NOTE = "Wall time of the whole process in milliseconds for each [solver](theory/solvers.md): problem `pinned_ld2_nu495`, n x 2n quad8 reduced."
+SOLVERS_OPTIONS = "`sagefe run --element quad8 --formulation 1 --solver NAME --threads N`."
+
+
+def solvers_head(names):
+    return ["n", *(f"{name} ms" for name in names)]
+
+
 def solvers(bench):
     """Every solver on the same scene, quad8 reduced."""
     scene = scenes.scenes()[3]
@@ -252,5 +280,4 @@ def solvers(bench):
         jobs = [sage_job(bench, scene, name, str(n), scenes.deck(scene, n), [*options, name]) for name in names]
         found = {labels[2]: r for labels, r in bench.turns(jobs).items()}
         rows.append([str(n), *(ms(found[name].wall) if name in found else "-" for name in names)])
-    note = "Pinned cylinder, L/D = 2, nu = .495, quad8 reduced, whole process, wall milliseconds."
-    return {"solvers": Table("Solvers", note, "`sagefe run --element quad8 --formulation 1 --solver NAME --threads N`.", ["n", *(f"{s} ms" for s in names)], rows)}
+    return {"solvers": Table(SOLVERS_TITLE, SOLVERS_NOTE, SOLVERS_OPTIONS, solvers_head(names), rows)}

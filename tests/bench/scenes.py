@@ -8,6 +8,8 @@ import math
 import pathlib
 import re
 
+from measure import markdown
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -279,6 +281,27 @@ def footing(geometry, rough, reference, law=(4, (298.0, 0.49, 1.0, 0.0, 0.0)), p
         sizes=(4, 8, 12, 16),
         data=dict(family="footing", rough=rough),
     )
+
+
+WHAT_IS_COMPARED = (
+    "An error is the relative error of one result, |value / reference - 1|. A mesh of quadrilaterals is named by n. The *ratio* of a pinned specimen is the mean stress on its end over that of a specimen with free ends."
+)
+
+
+def problems():
+    """Table of the problems: what they are, their meshes, and the result whose error is given."""
+    reference = {scene.name: scene.reference for scene in scenes()}
+    pinned_names = [name for name in reference if name.startswith("pinned")]
+    lame_name = next(name for name in reference if name.startswith("lame"))
+    rows = [
+        (", ".join(f"`{name}`" for name in pinned_names), "quarter of an elastic cylinder between rough rigid ends, shortened by 1 %: length over diameter 1 or 2, nu = .25 or .495. The stress is singular at the rim of the end",
+         "n elements along the radius, n or 2n along half the height", "ratio: " + ", ".join(f"{reference[name]:.9f}" for name in pinned_names) + " (converged, [accuracy](theory/accuracy.md))"),
+        (f"`{lame_name}`", "thick elastic ring with radii 1 and 2, E = 1, no axial strain, pressure 1 inside", "n elements along the radius", f"displacement of the inner face: {reference[lame_name]:.7g} (Lame)"),
+        ("`cook`", "Cook's membrane in plane strain, E = 1, nu = 1/3, shear force 1. The stress is singular at corners of the clamped side", "n x n elements", f"vertical displacement of the upper free corner: {reference['cook']:.7g} (converged)"),
+        ("`strip_smooth`, `strip_rough`", "rigid strip footing on clay, Tresca with c = 1, half width 1, smooth or rough base", "n elements under the half width, smaller towards the edge of the footing", "mean pressure at a settlement of .15: 2 + pi (Prandtl)"),
+        ("`circle_smooth`, `circle_rough`", "rigid circular footing on the same clay, radius 1", "n elements under the radius, smaller towards the edge", f"mean pressure at a settlement of .15: {reference['circle_smooth']:g} and {reference['circle_rough']:g} (Cox, Eason & Hopkins 1961; Eason & Shield 1960)"),
+    ]
+    return markdown(["problem", "model", "mesh n", "result and its reference"], [list(row) for row in rows])
 
 
 def scenes():
