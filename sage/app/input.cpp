@@ -5,7 +5,6 @@
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include "sage/deck/read_deck.hpp"
 #include "sage/draw/picture.hpp"
 #include "sage/messages/near_names.hpp"
+#include "sage/messages/parse_number.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
@@ -32,9 +32,7 @@ namespace {
 
 // By code or name; -1 = there is none.  Codes are checked when the model is built.
 int element_code(const Catalogue& catalogue, const std::string& text) {
-  int code = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), code);
-  if (error == std::errc() && end == text.data() + text.size()) return code;
+  if (const std::optional<int> code = parse_number<int>(text)) return *code;
   const int found = catalogue.elements.code_of(text);
   return found == 0 ? -1 : found;
 }
@@ -50,8 +48,9 @@ Grading grading_from(const std::string& text) {
   std::string part, node;
   std::getline(parts, node, ':');
   const auto number = [&](const std::string& digits, auto& value) {
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size()) throw std::invalid_argument(usage);
+    const auto read = parse_number<std::remove_reference_t<decltype(value)>>(digits);
+    if (!read) throw std::invalid_argument(usage);
+    value = *read;
   };
   if (node != "auto") {
     number(node, grading.node);
@@ -68,10 +67,10 @@ Grading grading_from(const std::string& text) {
 PointRequest point_from(const std::string& text) {
   const std::string wanted = "--point " + text + ": wanted x,y[:name[:group]]";
   const auto number = [&](std::string_view digits, auto& value) {
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    const bool read = error == std::errc() && end == digits.data() + digits.size() && !digits.empty();
-    if (!read || !std::isfinite(static_cast<double>(value)))
+    const auto read = parse_number<std::remove_reference_t<decltype(value)>>(digits);
+    if (!read || !std::isfinite(static_cast<double>(*read)))
       throw std::invalid_argument(wanted + "; \"" + std::string(digits) + "\" is no number");
+    value = *read;
   };
   std::vector<std::string> parts{""};
   for (char c : text) {
@@ -286,11 +285,9 @@ void add_build_options(CLI::App& parser, BuildOptions& options, const Catalogue&
 
 std::function<std::string(const std::string&)> number_in(double low, double high, const std::string& wanted) {
   return [=](const std::string& text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool number = error == std::errc() && end == text.data() + text.size();
-    return number && value >= low && value <= high ? std::string()
-                                                   : wanted + " is wanted, not \"" + text + "\"";
+    const std::optional<double> value = parse_number<double>(text);
+    return value && *value >= low && *value <= high ? std::string()
+                                                    : wanted + " is wanted, not \"" + text + "\"";
   };
 }
 

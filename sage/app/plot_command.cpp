@@ -3,7 +3,6 @@
 
 #include <CLI/Option.hpp>
 #include <CLI/Validators.hpp>
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "sage/app/picture_formats.hpp"
 #include "sage/app/plot_command.hpp"
 #include "sage/app/state_choice.hpp"
+#include "sage/messages/parse_number.hpp"
 #include "sage/record/out_file.hpp"
 
 namespace sage::app {
@@ -28,12 +28,7 @@ void set_range(PictureOptions& look, const std::string& text) {
     return;
   }
   const std::size_t colon = text.find(':');
-  const auto number = [&](std::string_view digits) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (error != std::errc() || end != digits.data() + digits.size()) value = NAN;
-    return value;
-  };
+  const auto number = [](std::string_view digits) { return parse_number<double>(digits).value_or(NAN); };
   if (colon != std::string::npos) {
     look.low = number(std::string_view(text).substr(0, colon));
     look.high = number(std::string_view(text).substr(colon + 1));

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
 #include "sage/analysis/external_loads.hpp"
+#include "sage/messages/parse_number.hpp"
 #include "sage/model/activity.hpp"
 
 namespace sage::app {
@@ -19,8 +19,9 @@ constexpr double kSame = 1e-6;  // strains and load factors on a command line ha
 
 template <class Number>
 bool whole_number(std::string_view digits, Number& value) {
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return error == std::errc() && end == digits.data() + digits.size();
+  const std::optional<Number> read = parse_number<Number>(digits);
+  value = read.value_or(value);
+  return read.has_value();
 }
 
 // keyword: "strain=", "load=" or empty.

@@ -3,7 +3,6 @@
 #include <unistd.h>
 
 #include <CLI/Option.hpp>
-#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -11,6 +10,7 @@
 #include "sage/app/commands.hpp"
 #include "sage/app/picture_formats.hpp"
 #include "sage/messages/error.hpp"
+#include "sage/messages/parse_number.hpp"
 #include "sage/platform/module.hpp"
 
 namespace sage::app {
@@ -37,11 +37,10 @@ void add_page_option(CLI::App& parser, std::string& page, const std::string& abo
 
 int figure_from(const std::string& text) {
   const std::string digits = text.starts_with("7.") ? text.substr(2) : text;
-  int figure = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), figure);
-  if (error != std::errc() || end != digits.data() + digits.size() || figure < 1 || figure > kFigures)
+  const std::optional<int> figure = parse_number<int>(digits);
+  if (!figure || *figure < 1 || *figure > kFigures)
     throw std::invalid_argument("--only " + text + ": wanted a figure from 7.1 to 7.40");
-  return figure;
+  return *figure;
 }
 
 Studies& studies() {

@@ -1,12 +1,12 @@
 #include "sage/deck/other_programs.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "sage/deck/text.hpp"
+#include "sage/messages/parse_number.hpp"
 
 namespace sage {
 
@@ -157,9 +157,8 @@ std::optional<double> number_of(std::string_view text, bool integer) {
   std::string plain(text);
   if (!plain.empty() && plain[0] == '+') plain.erase(0, 1);
   for (char& c : plain) c = c == 'D' || c == 'd' ? 'E' : c;
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-  if (error != std::errc() || end != plain.data() + plain.size() || !std::isfinite(value)) return std::nullopt;
+  const std::optional<double> value = parse_number<double>(plain);
+  if (!value || !std::isfinite(*value)) return std::nullopt;
   if (integer && plain.find_first_of(".Ee") != std::string::npos) return std::nullopt;
   return value;
 }

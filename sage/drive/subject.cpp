@@ -1,9 +1,9 @@
 #include "sage/drive/subject.hpp"
+#include "sage/messages/parse_number.hpp"
 #include "sage/messages/split_at.hpp"
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -22,12 +22,10 @@ std::string_view trimmed(std::string_view text) {
 
 double number_from(const Setting& setting, const SourcePosition& where) {
   const std::string& text = setting.value;
-  const char* const start = text.data() + (text.starts_with('+') ? 1 : 0);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(start, text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+  const auto value = parse_number<double>(std::string_view(text).substr(text.starts_with('+') ? 1 : 0));
+  if (!value || !std::isfinite(*value))
     throw InputError("S651", where, fmt::format("{}={}: wanted a finite number", setting.key, text));
-  return value;
+  return *value;
 }
 
 std::string parameter_names(const MaterialEntry& entry) {
@@ -45,11 +43,10 @@ std::string open_name(const Subject& subject, std::size_t place) {
 int open_place(Subject& subject, std::string_view key) {
   constexpr std::string_view kKey = "prop";
   constexpr std::size_t kMost = 1000;
-  std::size_t number = 0;
   if (!subject.entry->open_ended || !key.starts_with(kKey)) return -1;
-  const auto [end, error] = std::from_chars(key.data() + kKey.size(), key.data() + key.size(), number);
-  if (error != std::errc() || end != key.data() + key.size() || number < 1 || number > kMost) return -1;
-  const std::size_t place = subject.entry->parameters.size() + number - 1;
+  const auto number = parse_number<std::size_t>(key.substr(kKey.size()));
+  if (!number || *number < 1 || *number > kMost) return -1;
+  const std::size_t place = subject.entry->parameters.size() + *number - 1;
   if (subject.values.size() <= place) subject.values.resize(place + 1, kUnset);
   return static_cast<int>(place);
 }

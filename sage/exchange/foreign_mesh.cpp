@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "sage/deck/text.hpp"
 #include "sage/math/rounding.hpp"
+#include "sage/messages/parse_number.hpp"
 
 namespace sage {
 
@@ -87,8 +87,9 @@ void check_areas(const ForeignMesh& mesh, const std::string& file) {
 template <class Number>
 bool parse(std::string_view text, Number& value) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && last == text.data() + text.size();
+  const std::optional<Number> read = parse_number<Number>(text);
+  value = read.value_or(value);
+  return read.has_value();
 }
 
 }  // namespace

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
+#include "sage/messages/parse_number.hpp"
 #include "sage/messages/split_at.hpp"
 #include "sage/model/law_table.hpp"
 #include "sage/model/strength.hpp"
@@ -90,13 +90,12 @@ void set_factor(PartialFactors& set, std::string_view part) {
     throw std::invalid_argument("'" + std::string(part) +
                                 "' is no factor; KEY=VALUE was expected, with one of " + known);
   const std::string_view digits = part.substr(equals + 1);
-  double& value = set.*key->value;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const std::optional<double> value = parse_number<double>(digits);
   const bool action = name == "permanent" || name.ends_with("variable") || name == "structural_permanent";
-  if (error != std::errc() || end != digits.data() + digits.size() || !(value <= 100.0) ||
-      !(action ? value >= 0.0 : value >= 0.01))
+  if (!value || !(*value <= 100.0) || !(action ? *value >= 0.0 : *value >= 0.01))
     throw std::invalid_argument("'" + std::string(part) + "': a number from " + (action ? "0" : "0.01") +
                                 " to 100 was expected");
+  set.*key->value = *value;
 }
 
 // Strengths of soil and interfaces.

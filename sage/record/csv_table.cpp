@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <limits>
 
 #include "sage/messages/error.hpp"
+#include "sage/messages/parse_number.hpp"
 
 namespace sage {
 
@@ -42,11 +42,8 @@ CsvTable::Column column_of(const std::string& cell) {
 }
 
 double number_of(const std::string& cell) {
-  double value = 0.0;
-  const char* const start = cell.data() + (cell.starts_with('+') ? 1 : 0);
-  const auto [end, error] = std::from_chars(start, cell.data() + cell.size(), value);
-  const bool whole = error == std::errc() && end == cell.data() + cell.size();
-  return whole ? value : std::numeric_limits<double>::quiet_NaN();
+  const std::string_view digits = std::string_view(cell).substr(cell.starts_with('+') ? 1 : 0);
+  return parse_number<double>(digits).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 }  // namespace
