@@ -18,13 +18,14 @@ constexpr double kBeyond = 1e-6;
 }  // namespace
 
 template <class Line, class Kinematics>
-MovingLine<Contact<Line, Kinematics>::kNodes> Contact<Line, Kinematics>::parts_at(double xi) {
+MovingLine<Contact<Line, Kinematics>::kNodes> Contact<Line, Kinematics>::parts_at(const LinePoint& at) {
   MovingLine<kNodes> parts;
-  parts.place.template head<kEdge>() = Line::N(xi);
-  parts.tangent.template head<kEdge>() = Line::dN(xi);
+  parts.place.template head<kEdge>() = Line::N(at.xi);
+  parts.tangent.template head<kEdge>() = Line::dN(at.xi);
   parts.point = parts.place;
   parts.point(kEdge) = parts.line(kEdge) = -1.0;
   parts.line(kEdge + 1) = 1.0;
+  parts.w = at.w;
   return parts;
 }
 
@@ -45,7 +46,7 @@ Contact<Line, Kinematics>::Contact(std::string_view name)
   for (std::size_t p = 0; p < kPoints; ++p) {
     const LinePoint& at = GaussLine<kPoints>::table[p];
     points.push_back({at.xi, 0.0});
-    parts_[p] = parts_at(at.xi);
+    parts_[p] = parts_at(at);
   }
   for (const double xi : Line::node_xi) nodes.push_back({xi, 0.0});
   to_nodes_ = extrapolation_matrix(points, nodes, kEdge == 2 ? Basis::line_linear : Basis::line_quadratic);
@@ -61,7 +62,7 @@ void Contact<Line, Kinematics>::geometry(const NodeCoordinates& x, std::span<dou
     throw ElementShapeError("contact: the edge or the line has no length");
   double* block = out.data();
   for (std::size_t p = 0; p < kPoints; ++p) {
-    const Place place(parts_[p], x, Coordinates::Zero(), GaussLine<kPoints>::table[p].w);
+    const Place place(parts_[p], x, Place::Coordinates::Zero());
     if (!(place.J > 0.0)) throw ElementShapeError("contact: the middle node folds the edge");
     if (place.gap < -kBeyond * size && is_beside(place))
       throw ElementShapeError(
@@ -83,53 +84,40 @@ Vector2 Contact<Line, Kinematics>::position(const NodeCoordinates& x, int point)
 
 template <class Line, class Kinematics>
 Outcome Contact<Line, Kinematics>::evaluate(const ElementIn& in, ElementOut& out) const {
-  const Coordinates mesh = Coordinates::Map(in.x), before = Coordinates::Map(in.u0);
-  const Coordinates now = before + Coordinates::Map(in.du);
-  SlipForces<kNodes> sums;
-  for (std::size_t p = 0; p < kPoints; ++p) {
-    const double w = GaussLine<kPoints>::table[p].w;
-    const Outcome outcome =
-        add_point(p, in, out, Place(parts_[p], mesh, before, w), Place(parts_[p], mesh, now, w), sums);
-    if (outcome != Outcome::ok) return outcome;
-  }
-  Dofs::Map(out.f) = sums.f;
-  if (out.K != nullptr) Matrix<kDofs>::Map(out.K) = sums.K;
-  return Outcome::ok;
+  const auto add = [&](std::size_t p, const Place& before, const Place& now, SlipForces<kNodes>& sums) {
+    return add_point(p, in, out, before, now, sums);
+  };
+  return sum_over_points<kNodes, Kinematics>(parts_, in, out, add);
 }
 
 template <class Line, class Kinematics>
 Outcome Contact<Line, Kinematics>::add_point(std::size_t p, const ElementIn& in, ElementOut& out,
                                              const Place& before, const Place& now,
                                              SlipForces<kNodes>& sums) const {
-  const InterfaceLaw& law = *std::get<const InterfaceLaw*>(in.law);
-  const std::span<const Quantity> history = law.traits().history;
-  const std::span<double> h1{out.h1 + p * history.size(), history.size()};
-  Eigen::Map<Vector2> sigma1(out.sigma1 + 2 * p), eps1(out.eps1 + 2 * p);
   if (!touches(now)) {
-    sigma1.setZero();
-    eps1 << 0.0, now.gap;
-    for (std::size_t i = 0; i < h1.size(); ++i) h1[i] = history[i].initial;
-    out.status[p] = PointStatus::open;
+    leave_open(p, in, out, now.gap);
     return Outcome::ok;
   }
   const bool held = touches(before);
-  PointIn<2> point;
-  point.sigma0 = held ? Vector2(Vector2::Map(in.sigma0 + 2 * p)) : Vector2(Vector2::Zero());
-  point.eps0 = held ? Vector2(in.eps0[2 * p], before.gap) : Vector2(Vector2::Zero());
-  point.deps = held ? Vector2(now.slid - before.slid, now.gap - before.gap) : Vector2(0.0, now.gap);
-  point.h0 = {in.h0 + p * history.size(), history.size()};
-  point.context = in.contexts != nullptr ? in.contexts + p : nullptr;
   PointOut<2> answer;
-  answer.h1 = h1;
-  const Outcome outcome = law.update(point, answer);
+  const Outcome outcome =
+      held ? update_point(p, in, out, Vector2::Map(in.sigma0 + 2 * p), {in.eps0[2 * p], before.gap},
+                          {now.slid - before.slid, now.gap - before.gap}, answer)
+           : update_point(p, in, out, Vector2::Zero(), Vector2::Zero(), {0.0, now.gap}, answer);
   if (outcome != Outcome::ok) return outcome;
-  sigma1 = answer.sigma;
-  eps1 = point.eps0 + point.deps;
-  out.status[p] = answer.status;
-  Matrix2 D = answer.D;
-  if (!held) D.col(0).setZero();  // no slip in the step that makes contact
-  now.add(answer.sigma, D, out.K != nullptr, sums);
+  if (!held) answer.D.col(0).setZero();  // no slip in the step that makes contact
+  now.add(answer.sigma, answer.D, out.K != nullptr, sums);
   return Outcome::ok;
+}
+
+// Without traction, and with the law's first history.
+template <class Line, class Kinematics>
+void Contact<Line, Kinematics>::leave_open(std::size_t p, const ElementIn& in, ElementOut& out, double gap) {
+  const std::span<const Quantity> history = std::get<const InterfaceLaw*>(in.law)->traits().history;
+  Vector2::Map(out.sigma1 + 2 * p).setZero();
+  Vector2::Map(out.eps1 + 2 * p) << 0.0, gap;
+  for (std::size_t i = 0; i < history.size(); ++i) out.h1[p * history.size() + i] = history[i].initial;
+  out.status[p] = PointStatus::open;
 }
 
 template class Contact<Line2, PlaneStrain>;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "elements/moving_line.hpp"
+#include "sage/math/quadrature.hpp"
 
 namespace sage {
 
@@ -30,13 +31,12 @@ class Contact final : public Element {
 
  private:
   using Place = SlipPoint<kNodes, Kinematics>;
-  using Coordinates = typename Place::Coordinates;
-  using Dofs = typename Place::Dofs;
-  static MovingLine<kNodes> parts_at(double xi);
+  static MovingLine<kNodes> parts_at(const LinePoint& at);
   static bool is_beside(const Place& place) { return place.share >= 0.0 && place.share <= 1.0; }
   static bool touches(const Place& place) { return place.gap <= 0.0 && is_beside(place); }
   Outcome add_point(std::size_t p, const ElementIn& in, ElementOut& out, const Place& before, const Place& now,
                     SlipForces<kNodes>& sums) const;
+  static void leave_open(std::size_t p, const ElementIn& in, ElementOut& out, double gap);
 
   std::array<MovingLine<kNodes>, kPoints> parts_;
   ElementTraits traits_;

@@ -13,9 +13,6 @@ namespace sage {
 
 namespace {
 
-// Local nodes of each pair.
-constexpr std::array<int, 3> kBottom{0, 1, 4};
-constexpr std::array<int, 3> kTop{3, 2, 5};
 // Pairs further apart than this times the element's size do not match.
 constexpr double kPairTolerance = 1e-6;
 // Smallest share of the area that row_sum may leave to a pair.
@@ -31,7 +28,7 @@ void check_pairs(const NodeCoordinates& x, int pairs) {
   const auto apart = [&](int i, int j) { return (x.col(i) - x.col(j)).norm() > tolerance; };
   const std::string extra = pairs == 3 ? " 5 6" : "";
   for (int k = 0; k < pairs; ++k) {
-    const int a = kBottom[static_cast<std::size_t>(k)], b = kTop[static_cast<std::size_t>(k)];
+    const int a = kBottomNodes[static_cast<std::size_t>(k)], b = kTopNodes[static_cast<std::size_t>(k)];
     if (!apart(a, b)) continue;
     if (!apart(0, 2) && !apart(1, 3))
       throw ElementShapeError(
@@ -66,13 +63,13 @@ Interface<Line, Kinematics>::Interface(std::string_view name, InterfaceRule rule
   for (std::size_t p = 0; p < kPairs; ++p) {
     const LinePoint& q = GaussLine<kPairs>::table[p];
     const double xi = Line::node_xi[p];
-    // Trapezoid 1 1, Simpson 1/3 1/3 4/3 (the middle is the last pair).
-    const double w = kPairs == 2 ? 1.0 : (p == 2 ? 4.0 / 3.0 : 1.0 / 3.0);
+    const double w = newton_cotes_weight(kPairs, p);
     gauss_[p] = {Line::N(q.xi), Line::dN(q.xi), q.xi, q.w};
     nodal_[p] = {Line::N(xi), Line::dN(xi), xi, w};
     gauss_at.push_back({q.xi, 0.0});
     nodal_at.push_back({xi, 0.0});
-    nodes[static_cast<std::size_t>(kBottom[p])] = nodes[static_cast<std::size_t>(kTop[p])] = {xi, 0.0};
+    nodes[static_cast<std::size_t>(kBottomNodes[p])] =
+        nodes[static_cast<std::size_t>(kTopNodes[p])] = {xi, 0.0};
   }
   const Basis basis = kPairs == 2 ? Basis::line_linear : Basis::line_quadratic;
   gauss_to_nodes_ = extrapolation_matrix(gauss_at, nodes, basis);
@@ -96,8 +93,8 @@ void Interface<Line, Kinematics>::geometry(const NodeCoordinates& x, std::span<d
     *block = lumped ? sums(p) : point.w * J * Kinematics::measure(line.row(0).dot(point.N));
     Eigen::Map<Operator> Bt(block + 1);
     for (int k = 0; k < kPairs; ++k) {
-      Bt.template middleRows<2>(2 * kBottom[static_cast<std::size_t>(k)]) = -point.N(k) * T.transpose();
-      Bt.template middleRows<2>(2 * kTop[static_cast<std::size_t>(k)]) = point.N(k) * T.transpose();
+      Bt.template middleRows<2>(2 * kBottomNodes[static_cast<std::size_t>(k)]) = -point.N(k) * T.transpose();
+      Bt.template middleRows<2>(2 * kTopNodes[static_cast<std::size_t>(k)]) = point.N(k) * T.transpose();
     }
     block += kPointStride<2, kDofs>;
     ++p;
@@ -148,8 +145,8 @@ template <class Line, class Kinematics>
 std::string Interface<Line, Kinematics>::caution(const NodeCoordinates& x) const {
   if (rule_ != InterfaceRule::newton_cotes || Kinematics::geometry != Geometry::axisymmetric) return {};
   for (std::size_t k = 0; k < 2; ++k)
-    if (x(0, kBottom[k]) <= kRadiusTolerance * extent(x))
-      return "Newton-Cotes gives no area to the pair " + pair_name(kBottom[k], kTop[k]) +
+    if (x(0, kBottomNodes[k]) <= kRadiusTolerance * extent(x))
+      return "Newton-Cotes gives no area to the pair " + pair_name(kBottomNodes[k], kTopNodes[k]) +
              " at r = 0: nothing holds it together, and its stress is meaningless; formulation 1 (row-sum) or "
              "2 (Gauss) "
              "has no such pair";
@@ -160,8 +157,8 @@ template <class Line, class Kinematics>
 auto Interface<Line, Kinematics>::mid_line(const NodeCoordinates& x) -> MidLine {
   MidLine line;
   for (int k = 0; k < kPairs; ++k)
-    line.col(k) =
-        0.5 * (x.col(kBottom[static_cast<std::size_t>(k)]) + x.col(kTop[static_cast<std::size_t>(k)]));
+    line.col(k) = 0.5 * (x.col(kBottomNodes[static_cast<std::size_t>(k)]) +
+                         x.col(kTopNodes[static_cast<std::size_t>(k)]));
   return line;
 }
 

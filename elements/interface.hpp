@@ -14,6 +14,15 @@
 
 namespace sage {
 
+// Local nodes of each pair of an interface.
+inline constexpr std::array<int, 3> kBottomNodes{0, 1, 4}, kTopNodes{3, 2, 5};
+
+// Trapezoid 1 1, Simpson 1/3 1/3 4/3 (the middle is the last pair).
+constexpr double newton_cotes_weight(int pairs, std::size_t pair) {
+  if (pairs == 2) return 1.0;
+  return pair == 2 ? 4.0 / 3.0 : 1.0 / 3.0;
+}
+
 // row_sum: points at the pairs, weight = integral N_i dA with r inside.  No pair acts on another, and no pair
 // of a
 //   linear element has zero weight.  Where a pair would get less than 1/100 of the area (a quadratic element at

@@ -34,16 +34,9 @@ class LargeInterface final : public Element {
   Outcome evaluate(const ElementIn& in, ElementOut& out) const override;
 
  private:
-  using Place = SlipPoint<kNodes, Kinematics>;
-  using Coordinates = typename Place::Coordinates;
-  using Dofs = typename Place::Dofs;
-  Outcome add_point(std::size_t p, const ElementIn& in, ElementOut& out, const Place& before, const Place& now,
-                    SlipForces<kNodes>& sums) const;
-
   Interface<Line, Kinematics> small_;
   ElementTraits traits_;
   std::array<MovingLine<kNodes>, kPairs> parts_;
-  std::array<double, kPairs> weights_{};  // of the rule
 };
 
 }  // namespace sage

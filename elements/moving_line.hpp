@@ -2,18 +2,22 @@
 // a law of interfaces makes of them (docs/theory/large_strain.md).
 #pragma once
 
+#include <array>
+#include <variant>
+
 #include "elements/kinematics.hpp"
 #include "elements/shapes.hpp"
 
 namespace sage {
 
-// What the nodes' places are multiplied by.
+// What the nodes' places are multiplied by, and the weight of the rule.
 template <int Nodes>
 struct MovingLine {
   Vector<Nodes> point = Vector<Nodes>::Zero();    // the point less the start of the line
   Vector<Nodes> line = Vector<Nodes>::Zero();     // the line's vector
   Vector<Nodes> tangent = Vector<Nodes>::Zero();  // dx/dxi along the surface that the tractions act on
   Vector<Nodes> place = Vector<Nodes>::Zero();    // where they act
+  double w = 0.0;
 };
 
 // Sums over the points of an element.
@@ -31,9 +35,7 @@ class SlipPoint {
   using Coordinates = Eigen::Matrix<double, 2, Nodes>;
   using Dofs = Vector<kDofs>;
 
-  // w: weight of the rule at the point.
-  SlipPoint(const MovingLine<Nodes>& parts, const Coordinates& mesh, const Coordinates& u, double w)
-      : parts_(&parts), w_(w) {
+  SlipPoint(const MovingLine<Nodes>& parts, const Coordinates& mesh, const Coordinates& u) : parts_(&parts) {
     const Vector2 line0 = mesh * parts.line, turn_by = u * parts.line;
     const double length0 = line0.norm();
     length_ = (line0 + turn_by).norm();
@@ -48,8 +50,8 @@ class SlipPoint {
     share = (t0.dot(d0) + slid) / length_;
     tangent_ = (mesh + u) * parts.tangent;
     J = tangent_.norm();
-    weight = w * J * Kinematics::measure(((mesh + u) * parts.place).x());
     radius_ = ((mesh + u) * parts.place).x();
+    weight = parts.w * J * Kinematics::measure(radius_);
   }
 
   double slid = 0.0;   // along the line, since the mesh
@@ -80,9 +82,9 @@ class SlipPoint {
     return row;
   }
   Dofs of_weight() const {
-    Dofs row = w_ * Kinematics::measure(radius_) / J * along(parts_->tangent, tangent_);
+    Dofs row = parts_->w * Kinematics::measure(radius_) / J * along(parts_->tangent, tangent_);
     if (Kinematics::geometry == Geometry::axisymmetric)
-      for (int i = 0; i < Nodes; ++i) row(2 * i) += w_ * J * 2.0 * kPi * parts_->place(i);
+      for (int i = 0; i < Nodes; ++i) row(2 * i) += parts_->w * J * 2.0 * kPi * parts_->place(i);
     return row;
   }
   // Second derivatives of slip and gap, times the tractions.
@@ -99,8 +101,47 @@ class SlipPoint {
   }
 
   const MovingLine<Nodes>* parts_;
-  double w_, length_ = 0.0, radius_ = 0.0;
+  double length_ = 0.0, radius_ = 0.0;
   Vector2 t_, n_, tangent_;
 };
+
+// Sums over the points of an element.  add(p, before, now, sums) adds those of one, at the committed places of its nodes and at
+// those of the step, and returns what its law returned.
+template <int Nodes, class Kinematics, std::size_t Points, class Add>
+Outcome sum_over_points(const std::array<MovingLine<Nodes>, Points>& parts, const ElementIn& in,
+                        ElementOut& out, const Add& add) {
+  using Place = SlipPoint<Nodes, Kinematics>;
+  using Coordinates = typename Place::Coordinates;
+  const Coordinates mesh = Coordinates::Map(in.x), before = Coordinates::Map(in.u0);
+  const Coordinates now = before + Coordinates::Map(in.du);
+  SlipForces<Nodes> sums;
+  for (std::size_t p = 0; p < Points; ++p) {
+    const Outcome outcome = add(p, Place(parts[p], mesh, before), Place(parts[p], mesh, now), sums);
+    if (outcome != Outcome::ok) return outcome;
+  }
+  Vector<2 * Nodes>::Map(out.f) = sums.f;
+  if (out.K != nullptr) Matrix<2 * Nodes>::Map(out.K) = sums.K;
+  return Outcome::ok;
+}
+
+// Calls the element's law at point p for an increment of slip and gap, from this stress and strain, and writes the state.
+inline Outcome update_point(std::size_t p, const ElementIn& in, ElementOut& out, const Vector2& sigma0,
+                            const Vector2& eps0, const Vector2& deps, PointOut<2>& answer) {
+  const InterfaceLaw& law = *std::get<const InterfaceLaw*>(in.law);
+  const std::size_t history = law.traits().history.size();
+  PointIn<2> point;
+  point.sigma0 = sigma0;
+  point.eps0 = eps0;
+  point.deps = deps;
+  point.h0 = {in.h0 + p * history, history};
+  point.context = in.contexts != nullptr ? in.contexts + p : nullptr;
+  answer.h1 = {out.h1 + p * history, history};
+  const Outcome outcome = law.update(point, answer);
+  if (outcome != Outcome::ok) return outcome;
+  Vector2::Map(out.sigma1 + 2 * p) = answer.sigma;
+  Vector2::Map(out.eps1 + 2 * p) = eps0 + deps;
+  out.status[p] = answer.status;
+  return Outcome::ok;
+}
 
 }  // namespace sage

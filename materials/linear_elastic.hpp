@@ -12,7 +12,7 @@ struct ElasticModuli {
   double K, G;  // bulk and shear modulus                                    [stress]
 };
 
-// From Young's modulus and Poisson's ratio: K = E/3(1-2nu), G = E/2(1+nu).
+// From Young's modulus and Poisson's ratio: K = E / (3 (1 - 2 nu)), G = E / (2 (1 + nu)).
 ElasticModuli moduli_from_young(double youngs_modulus, double poissons_ratio);
 
 // From Young's and bulk modulus: G = 3KE/(9K-E), finite for nu = 1/2.        [Duncan et al. 1980]

@@ -84,6 +84,18 @@ StageInput cell_stage(const LargeSpecimen& specimen, const LatticeMesh& mesh) {
 
 }  // namespace
 
+MaterialInput platen_friction(double friction_angle, double stiffness_number, double exponent) {
+  return {.law = "clough_duncan",
+          .parameters = {{"cohesion", 0.0},
+                         {"friction_angle", friction_angle},
+                         {"tensile_strength", 0.0},
+                         {"failure_ratio", 0.0},
+                         {"stiffness_number", stiffness_number},
+                         {"stiffness_exponent", exponent},
+                         {"failure_stiffness", 0.0},
+                         {"shear_rule", 1.0}}};
+}
+
 ModelInput large_specimen_input(const LargeSpecimen& specimen, double strain, int increments) {
   const LatticeMesh mesh = mesh_of(specimen);
   const double height = kRadius * specimen.slenderness;

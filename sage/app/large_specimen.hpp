@@ -28,6 +28,9 @@ struct LargeSpecimen {
   double contact_stiffness = 2e4;
 };
 
+// A joint of an end that slides: friction alone, with the shear stiffness of Clough and Duncan's law.  friction_angle: degrees.
+MaterialInput platen_friction(double friction_angle, double stiffness_number, double exponent);
+
 struct LargeCurve {
   std::vector<TriaxialRow> rows;  // of each increment that has equilibrium; the last one's part that has
   std::string reason;             // why it ends early; empty: it is complete

@@ -30,22 +30,10 @@ struct Ends {
   std::optional<MaterialInput> joint;
 };
 
-MaterialInput joint_law(double friction_angle, double stiffness_number, double exponent) {
-  return {.law = "clough_duncan",
-          .parameters = {{"cohesion", 0.0},
-                         {"friction_angle", friction_angle},
-                         {"tensile_strength", 0.0},
-                         {"failure_ratio", 0.0},
-                         {"stiffness_number", stiffness_number},
-                         {"stiffness_exponent", exponent},
-                         {"failure_stiffness", 0.0},
-                         {"shear_rule", 1.0}}};
-}
-
 // As in the chapter's decks.
 std::vector<Ends> friction_ends() {
-  return {{"phi = 0.8", "friction 0.8 degrees, L/D = 2", "phi08", 2.0, joint_law(0.8, 120.0, 1.0)},
-          {"phi = 28.5", "friction 28.5 degrees, L/D = 2", "phi285", 2.0, joint_law(28.5, 5000.0, 0.9)}};
+  return {{"phi = 0.8", "friction 0.8 degrees, L/D = 2", "phi08", 2.0, platen_friction(0.8, 120.0, 1.0)},
+          {"phi = 28.5", "friction 28.5 degrees, L/D = 2", "phi285", 2.0, platen_friction(28.5, 5000.0, 0.9)}};
 }
 std::vector<Ends> pinned_ends() {
   return {{"pinned L/D = 2", "pinned ends, L/D = 2", "pinned_ld2", 2.0, {}},

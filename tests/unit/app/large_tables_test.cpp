@@ -62,18 +62,6 @@ TEST(LargeSpecimen, ContactChangesNothingWhereNothingTouches) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(wide.rows[i].ratio, plain.rows[i].ratio, 1e-9);
 }
 
-MaterialInput friction(double stiffness_number = 5000.0, double exponent = 0.9) {
-  return {.law = "clough_duncan",
-          .parameters = {{"cohesion", 0.0},
-                         {"friction_angle", 28.5},
-                         {"tensile_strength", 0.0},
-                         {"failure_ratio", 0.0},
-                         {"stiffness_number", stiffness_number},
-                         {"stiffness_exponent", exponent},
-                         {"failure_stiffness", 0.0},
-                         {"shear_rule", 1.0}}};
-}
-
 // The same specimen under small strain, with interfaces of zero thickness between its end and nodes of the platen.
 ModelInput with_interfaces(ModelInput input) {
   input.large_strain = false;
@@ -102,8 +90,11 @@ ModelInput with_interfaces(ModelInput input) {
 // Contact that touches from the start is an interface: at a strain of 1e-5 their forces differ by that strain.
 TEST(LargeSpecimen, EndsOfContactAreInterfacesAtSmallStrain) {
   constexpr double kStrain = 1e-5;
-  const LargeSpecimen specimen{
-      .slenderness = 2.0, .soil = elastic(0.333), .joint = friction(1e6, 0.0), .columns = 6, .shrink = 5.0};
+  const LargeSpecimen specimen{.slenderness = 2.0,
+                               .soil = elastic(0.333),
+                               .joint = platen_friction(28.5, 1e6, 0.0),
+                               .columns = 6,
+                               .shrink = 5.0};
   ModelInput input = large_specimen_input(specimen, kStrain, 10);
   const LargeCurve large = run_large_specimen(specimen, kStrain, 10, full_catalogue());
   ASSERT_EQ(large.reason, "");
@@ -132,7 +123,7 @@ TEST(LargeSpecimen, PlasticSpecimenBetweenWidePlatensGetsTo20Percent) {
                                                        {"flow", 1.0},
                                                        {"mean_tension_limit", -1.0}}},
                                .cell = 50.0,
-                               .joint = friction(),
+                               .joint = platen_friction(28.5, 5000.0, 0.9),
                                .platen = 2.0,
                                .columns = 8,
                                .shrink = 5.0};
