@@ -73,7 +73,7 @@ std::string describe(const Scene& scene) {
   if (scene.linear_elements > 0 && !scene.linear)
     text += "; " + std::to_string(scene.linear_elements) + " of " + std::to_string(scene.elements) +
             " elements linear, " + std::to_string(scene.nonlinear_dofs) + " of " + std::to_string(scene.dofs) +
-            " dofs touch the others";
+            " dofs belong to nonlinear elements";
   if (scene.linear_elements > 0 && scene.linear_shapes < scene.linear_elements)
     text += "; " + std::to_string(scene.linear_shapes) + (scene.linear_shapes == 1 ? " shape" : " shapes") +
             " of linear elements";

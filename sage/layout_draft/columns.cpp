@@ -116,7 +116,7 @@ void infer_format(const Run& run, const Facts& facts, CardDraft& card) {
     before = place.last;
   }
   card.format = format.finish();
-  card.reasons.push_back("FORMAT from where the numbers of " + std::to_string(run.lines.size()) +
+  card.reasons.push_back("FORMAT from the columns where the numbers of " + std::to_string(run.lines.size()) +
                          (run.lines.size() == 1 ? " line end" : " lines end"));
   if (!gaps.empty()) card.reasons.push_back("always blank here, perhaps fields: " + gaps);
   const bool implied = std::any_of(run.clusters.begin(), run.clusters.end(),

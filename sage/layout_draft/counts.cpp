@@ -65,7 +65,7 @@ std::string Counts::chance(const Source& source, int control) const {
   std::vector<std::string> why;
   if (source.value <= kSmall) why.emplace_back("a small number");
   if (source.again) why.emplace_back("it counts other lines too");
-  if (source.backward) why.emplace_back("counts behind it were used already");
+  if (source.backward) why.emplace_back("later counts of that card already fit other lines");
   if (source.value > kSmall && source.card != control && share_around(source.value) > kCrowded)
     why.emplace_back("many numbers of that size stand above");
   std::string others;

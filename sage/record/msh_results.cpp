@@ -27,19 +27,24 @@ struct Step {
 // One view of one state.
 class View {
  public:
-  // kind: "NodeData".  numbers: per row.
-  View(std::string& out, MshForm form, std::string_view kind, const std::string& name, const Step& step,
-       int numbers, std::size_t rows)
-      : numbers_(out, form), kind_(kind) {
-    fmt::format_to(std::back_inserter(out), "${}\n1\n\"{}\"\n1\n{}\n3\n{}\n{}\n{}\n", kind, name, step.time,
-                   step.index, numbers, rows);
+  // kind: "NodeData".  numbers: per row.  words: all numbers of a row, its element and count included.
+  View(OutFile& file, MshForm form, std::string_view kind, const std::string& name, const Step& step,
+       int numbers, std::size_t rows, std::size_t words)
+      : file_(file), numbers_(file.text(), form), kind_(kind) {
+    if (form == MshForm::binary) file.text().reserve(file.text().size() + 1000 + rows * words * sizeof(double));
+    fmt::format_to(std::back_inserter(file.text()), "${}\n1\n\"{}\"\n1\n{}\n3\n{}\n{}\n{}\n", kind, name,
+                   step.time, step.index, numbers, rows);
   }
   void add(int number) { numbers_ << number; }
   void add(double value) { numbers_ << value; }
   void end_row() { numbers_.end_line(); }
-  void close() { numbers_.end_section(kind_); }
+  void close() {
+    numbers_.end_section(kind_);
+    file_.checkpoint();  // the next view has its memory
+  }
 
  private:
+  OutFile& file_;
   MshNumbers numbers_;
   std::string_view kind_;
 };
@@ -50,14 +55,15 @@ std::string view_name(const FieldEntry& field, const std::string& name, const Un
   return text;
 }
 
-void add_node_views(std::string& out, MshForm form, const Model& model, const Solution& now,
+void add_node_views(OutFile& file, MshForm form, const Model& model, const Solution& now,
                     const FieldTable& table, const Step& step) {
   const NodeViews views(model, now);
   for (const FieldEntry& field : table.rows()) {
     if (field.place() != FieldPlace::node || field.form != FieldForm::number) continue;
     const bool vector = field.shape == FieldShape::vector;
     const auto nodes = static_cast<std::size_t>(model.mesh.nodes());
-    View view(out, form, "NodeData", view_name(field, field.name, model.units), step, vector ? 3 : 1, nodes);
+    View view(file, form, "NodeData", view_name(field, field.name, model.units), step, vector ? 3 : 1, nodes,
+              vector ? 4 : 2);
     std::vector<double> value(std::max<std::size_t>(field.size(), 3), 0.0);
     for (int node = 0; node < model.mesh.nodes(); ++node) {
       read_field(field, views.at(node), value.data());
@@ -74,14 +80,18 @@ void add_node_views(std::string& out, MshForm form, const Model& model, const So
 // From [xx yy zz xy yz xz] to rows of the matrix.
 constexpr std::array<std::size_t, 9> kMatrix{0, 3, 5, 3, 1, 4, 5, 4, 2};
 
-void add_tensor_view(std::string& out, MshForm form, const Model& model, const NodalLayout& layout,
+void add_tensor_view(OutFile& file, MshForm form, const Model& model, const NodalLayout& layout,
                      const VtkArray& array, const Step& step) {
   const auto& values = std::get<std::vector<double>>(array.values);
-  std::size_t rows = 0;
-  for (std::size_t g = 0; g < model.groups.size(); ++g)
-    if (model.groups[g].solid() && !layout.of_group[g].empty())
-      rows += static_cast<std::size_t>(model.groups[g].elements());
-  View view(out, form, "ElementNodeData", view_name(*array.field, array.name, model.units), step, 9, rows);
+  std::size_t rows = 0, nodes = 0;  // nodes: the most of one element
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    if (!group.solid() || layout.of_group[g].empty()) continue;
+    rows += static_cast<std::size_t>(group.elements());
+    nodes = std::max(nodes, foreign_nodes(*group.entry, group.entry->gmsh).size());
+  }
+  View view(file, form, "ElementNodeData", view_name(*array.field, array.name, model.units), step, 9, rows,
+            9 * nodes + 1);
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
     if (!group.solid() || layout.of_group[g].empty()) continue;
@@ -101,7 +111,7 @@ void add_tensor_view(std::string& out, MshForm form, const Model& model, const N
 }
 
 // A vector of three, or one component after the other.  rows: of the elements, in the order of the file; -1: none.
-void add_element_views(std::string& out, MshForm form, const VtkArray& array, const std::vector<int>& elements,
+void add_element_views(OutFile& file, MshForm form, const VtkArray& array, const std::vector<int>& elements,
                        const std::vector<long>& rows, const Step& step, const UnitSystem& units) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   const auto* values = std::get_if<std::vector<double>>(&array.values);
@@ -110,8 +120,8 @@ void add_element_views(std::string& out, MshForm form, const VtkArray& array, co
   for (std::size_t first = 0; first < array.width; first += together) {
     std::string name = array.name;
     if (together < array.width) name += "_" + array.components[first];
-    View view(out, form, "ElementData", view_name(*array.field, name, units), step, static_cast<int>(together),
-              elements.size());
+    View view(file, form, "ElementData", view_name(*array.field, name, units), step, static_cast<int>(together),
+              elements.size(), together + 1);
     for (std::size_t i = 0; i < elements.size(); ++i) {
       view.add(elements[i]);
       for (std::size_t c = first; c < first + together; ++c)
@@ -147,13 +157,12 @@ void MshResults::add(const Model& model, const StepReport& report, const Solutio
   const FieldTable table = fields_of(model);
   const Step step{StateTime(model).at(report), count_++};
   const NodalLayout layout = nodal_layout(model, *now.activity);
-  std::string& out = file_.text();
-  add_node_views(out, form_, model, now, table, step);
+  add_node_views(file_, form_, model, now, table, step);
   for (const VtkArray& array : vtk_point_data(model, now, layout, table))
-    if (array.field->shape == FieldShape::tensor) add_tensor_view(out, form_, model, layout, array, step);
+    if (array.field->shape == FieldShape::tensor) add_tensor_view(file_, form_, model, layout, array, step);
   const std::vector<long> rows = rows_of(elements_, now);
   for (const VtkArray& array : vtk_cell_data(model, now, table))
-    add_element_views(out, form_, array, elements_, rows, step, model.units);
+    add_element_views(file_, form_, array, elements_, rows, step, model.units);
   file_.checkpoint();
 }
 

@@ -16,20 +16,20 @@ namespace {
 
 constexpr std::size_t kFewest = 8;  // increments of a push whose plateau is shown
 
-bool is_moved(const Fixity& fixity, std::size_t component) {
-  return fixity.code[component] == FixityCode::fixed && fixity.value[component] != 0.0;
-}
-
 // What forces at nodes, every dof, do on the motion of the supports, divided by the largest displacement: of a body that is
 // moved without turning, their sum along the motion.  Nothing where no support is moved.
-std::optional<double> force_along(const Model& model, int stage, const Eigen::VectorXd& forces) {
+std::optional<double> force_along(const Model& model, int stage, const Activity& activity,
+                                  const Eigen::VectorXd& forces) {
+  const Stage& now = model.stages[stage];
+  if (!now.moves_supports()) return {};
+  Eigen::VectorXd motion = prescribed_rate(now, activity.dof_map);
+  add_turned_rate(now, activity, motion);
   double work = 0.0, largest = 0.0;
-  for (const Fixity& fixity : model.stages[stage].fixities)
-    for (std::size_t c = 0; c < 2; ++c) {
-      if (!is_moved(fixity, c)) continue;
-      work += forces[DofMap::displacement(fixity.node, static_cast<int>(c))] * fixity.value[c];
-      largest = std::max(largest, std::abs(fixity.value[c]));
-    }
+  for (int node = 0; node < model.mesh.nodes(); ++node) {
+    const Vector2 u = motion.segment<2>(DofMap::displacement(node));
+    work += u.dot(forces.segment<2>(DofMap::displacement(node)));
+    largest = std::max(largest, u.norm());
+  }
   if (largest == 0.0) return {};
   return work / largest;
 }
@@ -50,19 +50,22 @@ Plateau plateau_of(const std::vector<double>& forces) {
 }
 
 bool Pushes::needs_nodes(const Model& model, int stage, std::span<const char> flags) {
-  return std::ranges::any_of(model.stages[stage].fixities, [&](const Fixity& fixity) {
-    return (is_moved(fixity, 0) || is_moved(fixity, 1)) && flags[fixity.node] != 0;
+  const Stage& now = model.stages[stage];
+  if (model.combines_dofs()) return now.moves_supports();
+  return std::ranges::any_of(now.fixities, [&](const Fixity& one) {
+    return (one.value[0] != 0.0 || one.value[1] != 0.0) && flags[one.node] != 0;
   });
 }
 
 void Pushes::increment(const Model& model, const StepReport& report, const Solution& solution) {
-  const std::optional<double> force = force_along(model, report.stage, *solution.internal);
+  const std::optional<double> force = force_along(model, report.stage, *solution.activity, *solution.internal);
   if (!force) return;
   if (pushes_.empty() || pushes_.back().stage != report.stage) {
     Vector2 gravity = Vector2::Zero();
     for (int s = 0; s <= report.stage; ++s) gravity += model.stages[s].gravity;
     const Eigen::VectorXd weight = weight_of(model, solution.activity->group, gravity, report.stage);
-    pushes_.push_back({report.stage, report.increments, *force_along(model, report.stage, weight), {}});
+    pushes_.push_back(
+        {report.stage, report.increments, *force_along(model, report.stage, *solution.activity, weight), {}});
   }
   pushes_.back().forces.push_back(*force - pushes_.back().weight);
 }
