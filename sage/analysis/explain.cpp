@@ -83,10 +83,7 @@ std::string counts_line(const std::array<long, kStatuses>& points) {
 
 // True where the stage prescribes displacements.
 bool moves(const Stage& stage) {
-  return std::ranges::any_of(stage.fixities,
-                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; }) ||
-         std::ranges::any_of(stage.turned_fixities,
-                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; }) ||
+  return stage.moves_supports() ||
          std::ranges::any_of(stage.field_fixities, [](const FieldFixity& f) { return f.value != 0.0; });
 }
 

@@ -37,16 +37,24 @@ class LoadSum {
   std::vector<int> dofs_;
 };
 
-// Of the active groups (a flag each).
-void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage, LoadSum& sum) {
+// Of the active groups (a flag each).  share(load): how much of it acts.
+template <class Share>
+void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage, LoadSum& sum,
+                    const Share& share) {
   for (const EdgeLoad& load : stage.pressures) {
-    if (!active[load.group]) continue;
-    const Group& group = model.groups[load.group];
-    const double share = share_of(load, 1.0, stage.duration);
-    sum.add(group, load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
-      group.element->edge_load(x, load.edge, share * load.normal, share * load.shear, f);
+    const double acting = active[load.group] ? share(load) : 0.0;
+    if (acting == 0.0) continue;
+    const Element& element = *model.groups[load.group].element;
+    sum.add(model.groups[load.group], load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
+      element.edge_load(x, load.edge, acting * load.normal, acting * load.shear, f);
     });
   }
+}
+
+// At the stage's end.
+void add_edge_loads(const Model& model, const std::vector<char>& active, const Stage& stage, LoadSum& sum) {
+  add_edge_loads(model, active, stage, sum,
+                 [&](const EdgeLoad& load) { return share_of(load, 1.0, stage.duration); });
 }
 
 void add_body_forces(const Model& model, std::size_t g, const Vector2& gravity, int stage, LoadSum& sum) {
@@ -134,14 +142,7 @@ Eigen::VectorXd table_loads(const Model& model, int stage, const Activity& activ
     if (!load.history.empty())
       force.segment<2>(DofMap::displacement(load.node)) += beside_line(load) * load.force;
   LoadSum sum(model, activity.dof_map, force);
-  for (const EdgeLoad& load : now.pressures) {
-    if (load.history.empty() || !activity.group[load.group]) continue;
-    const double share = beside_line(load);
-    const Element& element = *model.groups[load.group].element;
-    sum.add(model.groups[load.group], load.element, [&](const Eigen::Matrix2Xd& x, std::vector<double>& f) {
-      element.edge_load(x, load.edge, share * load.normal, share * load.shear, f);
-    });
-  }
+  add_edge_loads(model, activity.group, now, sum, beside_line);
   return force;
 }
 

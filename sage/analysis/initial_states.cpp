@@ -136,8 +136,8 @@ double pressure_at(const Model& model, const PorePressure* water, const GroupDat
     return water->at_point(static_cast<std::size_t>(data.group - model.groups.data()), element, point);
   const auto g = static_cast<std::size_t>(neighbour->group);
   const WaterCard* const card = water->card(g);
-  const bool anywhere = card != nullptr && (card->kind == WaterKind::line || card->kind == WaterKind::ratio);
-  return anywhere ? water->at(g, 0, data.group->element->position(x, point), {}) : 0.0;
+  return card != nullptr && card->by_place() ? water->at(g, 0, data.group->element->position(x, point), {})
+                                             : 0.0;
 }
 
 void report_start(const StartCount& count, const InitialStress& initial, const Group& group, int points,

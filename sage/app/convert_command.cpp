@@ -129,8 +129,8 @@ void add_mesh_options(CLI::App& parser, ForeignMeshOptions& mesh) {
   parser.add_option("--water-weight", mesh.water_weight, "from a mesh: unit weight of water")
       ->check(number_in(0.0, 1e99, "a number from 0 to 1e99"));
   add_use(parser, mesh, "fix", "NAME=x, NAME=y or NAME=xy holds the nodes of a curve, point or set");
-  add_use(parser, mesh, "pressure", "NAME=VALUE presses on a curve, set or surface");
-  add_use(parser, mesh, "force", "NAME=FX,FY pushes a point or a set of one node");
+  add_use(parser, mesh, "pressure", "NAME=VALUE applies a pressure to a curve, set or surface");
+  add_use(parser, mesh, "force", "NAME=FX,FY applies a force to a point or a set of one node");
   add_use(parser, mesh, "beam", "NAME: a wall or lining along a curve or set");
   add_use(parser, mesh, "bar", "NAME: bars along a curve or set");
   add_use(parser, mesh, "water", "NAME: the water line along a curve or set");

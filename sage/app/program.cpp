@@ -70,7 +70,7 @@ constexpr Entry kCommands[] = {
     {"tables", "compute the source chapter's Tables 7.3 and 7.4 and compare with its numbers", tables_command},
     {"figures", "compute the source chapter's Figures 7.1 to 7.40 and check its statements about them",
      figures_command, false, [] { return !studies().figures; }},
-    {"convert", "write a deck or Gmsh mesh as sage1 deck (.dat), Gmsh mesh (.msh) or CalculiX input (.inp)",
+    {"convert", "write a deck, model file or mesh as deck (.dat), model file (.sage.toml), .msh or .inp",
      convert_command, true},
     {"verify", "compare cases with closed forms, converged references and published values", verify_command,
      false, [] { return !studies().verify; }},

@@ -455,6 +455,10 @@ class GroundMaker {
     for (std::size_t g = 0; g < m_.groups.size(); ++g) {
       const WaterCard* card = is_ground(g) ? water->card(g) : nullptr;
       if (card == nullptr) continue;
+      if (card->kind == WaterKind::drawdown && card->value < 1.0)
+        reject("S577", card->where,
+               "bounds know no rapid drawdown with B-bar below 1: the ground's pressure at free edges is not "
+               "that of the water there");
       any = true;
     }
     if (!any) return;
@@ -471,7 +475,7 @@ class GroundMaker {
       const auto [g, e] = elements[at(t.origin)];
       const WaterCard* card = water->card(at(g));
       if (card == nullptr) return 0.0;
-      if (card->kind == WaterKind::line || card->kind == WaterKind::ratio)
+      if (card->by_place())
         return water->at(at(g), e, x, std::vector<double>(model->groups[at(g)].node_count(), 0.0));
       return interpolated((*mesh)[at(t.origin)], x);
     };

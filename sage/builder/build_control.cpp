@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "sage/builder/builder.hpp"
+#include "sage/messages/parse_number.hpp"
 
 namespace sage::builder {
 
@@ -19,11 +20,6 @@ bool has_load(const Stage& stage) {
          std::ranges::any_of(stage.turned_fixities, releases);
 }
 
-bool moves_supports(const Stage& stage) {
-  const auto moves = [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; };
-  return std::ranges::any_of(stage.fixities, moves) || std::ranges::any_of(stage.turned_fixities, moves);
-}
-
 // Why the stage cannot be controlled; empty = it can.
 std::string refusal(const Builder& b, const Stage& stage) {
   if (stage.method != Method::newton) return "it needs Newton's method (method 0)";
@@ -31,7 +27,7 @@ std::string refusal(const Builder& b, const Stage& stage) {
   if (b.model.has_pores() || !stage.field_loads.empty() || !stage.field_fixities.empty() ||
       !stage.exits.empty())
     return "it is not possible with unknowns besides displacements (pore pressures, heads)";
-  if (moves_supports(stage)) return "a stage whose load is controlled must not prescribe displacements";
+  if (stage.moves_supports()) return "a stage whose load is controlled must not prescribe displacements";
   if (stage.has_histories()) return "its loads have tables of time, which state the loads already";
   if (!has_load(stage)) return "the stage has no load that could grow or fall";
   if (&stage != &b.model.stages.back())
@@ -56,9 +52,7 @@ void read_control(Builder& b, const CardView& card, Stage& stage) {
             "or two nodes, as 12 15 y 0.02");
   };
   const auto number_of = [](const std::string& word) {
-    char* end = nullptr;
-    const double value = std::strtod(word.c_str(), &end);
-    return end == word.c_str() + word.size() ? value : std::nan("");
+    return parse_number<double>(word).value_or(std::nan(""));
   };
   const std::size_t nodes = words.size() - 2;
   if (words.size() < 3 || words.size() > 4 || (words[nodes] != "x" && words[nodes] != "y")) return fail();

@@ -90,17 +90,12 @@ bool has_stress(const std::vector<InitialStress>& initials) {
   return std::ranges::any_of(initials, [](const InitialStress& one) { return states_stress(one.kind); });
 }
 
-bool pushes_supports(const Stage& stage) {
-  return std::ranges::any_of(stage.fixities,
-                             [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; });
-}
-
 // An initial stress is balanced at first by forces that do not turn, which the stage lets go.
 void warn_of_first_pressures(Builder& b) {
   for (std::size_t s = 0; s < b.model.stages.size(); ++s) {
     const Stage& stage = b.model.stages[s];
     const bool begins = (s == 0 && has_stress(b.model.initials)) || has_stress(stage.initials);
-    if (!begins || stage.pressures.empty() || !pushes_supports(stage)) continue;
+    if (!begins || stage.pressures.empty() || !stage.moves_supports()) continue;
     b.warning(
         "S558", stage.where,
         "stage " + std::to_string(stage.number) +

@@ -121,17 +121,21 @@ void note_unused(Builder& b, const CardView& card, std::initializer_list<const c
   if (!ignored.empty()) b.note("S242", card.where(), why + "; of this card it does not use: " + ignored);
 }
 
+// The group that the card names, if any.
+void read_group(Builder& b, const CardView& card, Report& report) {
+  const int group = card.integer("group");
+  if (group == 0) return;
+  const auto found = b.group_index.find(group);
+  if (found == b.group_index.end())
+    b.group_missing(card.where("group"), group);
+  else if (b.layer_pieces.empty())  // else parts of it may be groups of their own
+    report.group = found->second;
+}
+
 // From the point card behind the report card.
 void read_point(Builder& b, const CardView& card, Report& report) {
   read_stage(b, card, report);
-  const int group = card.integer("group");
-  if (group != 0) {
-    const auto found = b.group_index.find(group);
-    if (found == b.group_index.end())
-      b.group_missing(card.where("group"), group);
-    else if (b.layer_pieces.empty())  // else parts of it may be groups of their own
-      report.group = found->second;
-  }
+  read_group(b, card, report);
   note_unused(b, card, {"first", "last", "step", "height", "area", "cell_pressure"},
               "a point report takes its place from the point card behind it (kind 2 reports nodes)");
   const std::vector<CardView> places = b.deck.all("point", card);
@@ -149,18 +153,11 @@ void read_point(Builder& b, const CardView& card, Report& report) {
 // From the point card behind the report card, which has both ends of the cut.
 void read_section(Builder& b, const CardView& card, Report& report) {
   read_stage(b, card, report);
-  const int group = card.integer("group");
-  if (group != 0) {
-    const auto found = b.group_index.find(group);
-    if (found == b.group_index.end())
-      b.group_missing(card.where("group"), group);
-    else
-      report.group = found->second;
-    if (!b.layer_pieces.empty())
-      b.error("S637", card.where("group"),
-              "the initial stresses of this model divide groups into layers; a section can't be one of group " +
-                  std::to_string(group) + " alone. Leave the group out, and end the cut where the group ends");
-  }
+  read_group(b, card, report);
+  if (const int group = card.integer("group"); group != 0 && !b.layer_pieces.empty())
+    b.error("S637", card.where("group"),
+            "the initial stresses of this model divide groups into layers; a section can't be one of group " +
+                std::to_string(group) + " alone. Leave the group out, and end the cut where the group ends");
   note_unused(b, card, {"first", "last", "step", "height", "area", "cell_pressure"},
               "a section report takes its cut from the point card behind it");
   const std::vector<CardView> cuts = b.deck.all("point", card);

@@ -1,6 +1,5 @@
 // Fixities, loads, initial stress and stages.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <locale>
@@ -11,6 +10,7 @@
 #include "sage/builder/builder.hpp"
 #include "sage/core/time_scheme.hpp"
 #include "sage/math/rounding.hpp"
+#include "sage/messages/parse_number.hpp"
 
 namespace sage::builder {
 
@@ -78,10 +78,9 @@ std::optional<std::vector<double>> numbers_of(const std::string& text) {
   std::istringstream words(text);
   words.imbue(std::locale::classic());
   for (std::string word; words >> word;) {
-    double number = 0.0;
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (problem != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) return {};
-    numbers.push_back(number);
+    const std::optional<double> number = parse_number<double>(word);
+    if (!number || !std::isfinite(*number)) return {};
+    numbers.push_back(*number);
   }
   return numbers;
 }
@@ -195,11 +194,50 @@ void read_turned_fixity(Builder& b, const CardView& card, int field, Fixity fixi
   }
 }
 
+// Code 3 in x, y or both: the nodes move as others do.
+constexpr int kTied = 3;
+
+bool ties(const CardView& card) {
+  return card.integer("x_code") == kTied || card.integer("y_code") == kTied || !card.blank("tie");
+}
+
+void read_tie(Builder& b, const CardView& card, bool in_stage) {
+  const auto error = [&](std::string_view field, const std::string& text) {
+    b.error("S370", card.where(field), text);
+  };
+  if (in_stage) return error("tie", "a tie holds in every stage: its card belongs before the stages");
+  if (card.blank("tie"))
+    return error("tie", "a tie (code 3) needs the number of the node to which the first node is tied");
+  Tie tie;
+  tie.line = card.card().line;
+  const char* const codes[] = {"x_code", "y_code"};
+  for (std::size_t c = 0; c < 2; ++c) {
+    const int code = card.integer(codes[c]);
+    if (code != 0 && code != kTied) return error(codes[c], "a card with a tie has codes 0 and 3 (tied) alone");
+    tie.component[c] = code == kTied ? 1 : 0;
+  }
+  if (!tie.component[0] && !tie.component[1])
+    return error("x_code", "the tie needs code 3 in x, in y or in both");
+  for (const char* field : {"x_value", "y_value", "angle"})
+    if (card.real(field) != 0.0) return error(field, "the " + card.label(field) + " of a tie must be blank");
+  for (const char* field : {"unknown", "history"})
+    if (!card.blank(field)) return error(field, "the " + card.label(field) + " of a tie must be blank");
+  std::int64_t to = card.integer("tie");
+  for (const int node : node_range(b, card)) {
+    tie.node = node;
+    tie.to = b.node(card, "tie", to);
+    if (tie.to < 0) return;
+    to += card.integer("tie_step");
+    if (tie.node != tie.to) b.model.ties.push_back(tie);
+  }
+}
+
 // exits: of a stage; nullptr before the first.  duration: of the stage, else 0.
 void read_fixity(Builder& b, const CardView& card, std::vector<Exit>* exits, double duration,
                  std::vector<Fixity>& out, std::vector<TurnedFixity>& out_turned,
                  std::vector<FieldFixity>& out_fields) {
   const bool in_stage = exits != nullptr;
+  if (ties(card)) return read_tie(b, card, in_stage);
   const int field = read_unknown(b, card);
   if (field < 0 || read_exit(b, card, field, exits)) return;
   Fixity fixity;

@@ -9,12 +9,14 @@
 #include "sage/deck/text.hpp"
 #include "sage/model/law_table.hpp"
 #include "sage/model/undrained.hpp"
+#include "sage/model/water.hpp"
 
 namespace sage::builder {
 
 namespace {
 
-constexpr int kKinds = 8;
+constexpr int kKinds = 9;
+constexpr int kDrawdown = static_cast<int>(WaterKind::drawdown);
 constexpr int kStored = 7;  // heads of an earlier run: pressures at nodes, once they are read
 
 std::vector<double> values_of(Builder& b, const CardView& card) {
@@ -99,11 +101,23 @@ void read_heads(Builder& b, const CardView& card, const WaterCard& water) {
             "heads are taken as they stand at the start of the stage: they need a stage of flow before it");
 }
 
+void read_drawdown(Builder& b, const CardView& card, WaterCard& water) {
+  require_unit_weight(b, card);
+  read_line(b, card, water);
+  if (water.value == 0.0) water.value = 1.0;
+  if (!(water.value > 0.0 && water.value <= 1.0))
+    b.error("S248", card.where("value1"), "B-bar of a rapid drawdown lies between 0 and 1; blank or 0 is 1");
+  if (water.action != WaterAction::edges)
+    b.error("S248", card.where("action"), "a rapid drawdown needs water at free edges (action 0)");
+}
+
 void read_kind(Builder& b, const CardView& card, WaterCard& water) {
   switch (water.kind) {
     case WaterKind::line:
       require_unit_weight(b, card);
       return read_line(b, card, water);
+    case WaterKind::drawdown:
+      return read_drawdown(b, card, water);
     case WaterKind::ratio:
       if (!(water.value >= 0.0 && water.value <= 1.0))
         b.error("S248", card.where("value1"), "r_u lies between 0 and 1");
@@ -129,17 +143,17 @@ void refuse_unread(Builder& b, const CardView& card, bool structure) {
   const auto among = [kind](std::initializer_list<int> kinds) {
     return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
   };
-  if (card.integer("listed") > 0 && !among({1, 3}))
-    refuse("listed", "values listed", "a phreatic line (kind 1) and pressures at nodes (kind 3) do");
+  if (card.integer("listed") > 0 && !among({1, 3, kDrawdown}))
+    refuse("listed", "values listed",
+           "a phreatic line (kind 1), pressures at nodes (kind 3) and a rapid drawdown (kind 8) do");
   if (kind == 1 && !structure && card.real("value1") != 0.0 && card.real("value1") != 1.0)
     b.error(
         "S248", card.where("value1"),
         "value 1 of a phreatic line is 0 (all of the vertical depth counts) or 1 (cos^2 of the line's slope)");
-  if (card.real("value1") != 0.0 && !among({1, 2, 5, kStored}) && !structure)
-    refuse(
-        "value1", "value 1",
-        "r_u, the rule of a phreatic line, the bulk of water and the stage of an earlier run stand there, and "
-        "sides of beams");
+  if (card.real("value1") != 0.0 && !among({1, 2, 5, kStored, kDrawdown}) && !structure)
+    refuse("value1", "value 1",
+           "r_u, the rule of a phreatic line, the bulk of water, the stage of an earlier run and B-bar stand "
+           "there, and sides of beams");
   if (card.real("value2") != 0.0 && !among({5}))
     refuse("value2", "value 2", "an undrained Poisson's ratio (kind 5) stands there");
 }
@@ -292,7 +306,8 @@ void check_undrained(Builder& b) {
           (open.group < 0 || open.group == shut.group))
         until = std::min(until, open.stage);
     for (const WaterCard& given : b.model.water) {
-      if (!given.pressure() || (given.group >= 0 && given.group != shut.group)) continue;
+      const bool about_it = given.group < 0 || given.group == shut.group;
+      if (!given.pressure() || !about_it || given.kind == WaterKind::drawdown) continue;
       const bool begins = given.stage > shut.stage || (given.stage == shut.stage && given.stage > 0);
       if (begins && given.stage < until)
         b.error("S249", given.where,
@@ -402,6 +417,24 @@ void take_heads(Builder& b, const StoredHeads& stored) {
               rounded_text(model.mesh.x(0, first), 6) + ", " + rounded_text(model.mesh.x(1, first), 6) + ")");
 }
 
+// Each needs a phreatic line with water at free edges to fall from.
+void check_drawdowns(Builder& b) {
+  for (const WaterCard& card : b.model.water) {
+    if (card.kind != WaterKind::drawdown) continue;
+    for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
+      const bool own = card.group < 0 || card.group == static_cast<int>(g);
+      if (!own || !b.model.groups[g].solid()) continue;
+      const WaterCard* const before = line_before(b.model, card, static_cast<int>(g));
+      if (before != nullptr && before->action == WaterAction::edges) continue;
+      b.error("S248", card.where,
+              "group " + std::to_string(b.model.groups[g].number) +
+                  " has no phreatic line with action 0 before stage " + std::to_string(card.stage + 1) +
+                  " from which a rapid drawdown could begin");
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 void take_stored_heads(Builder& b) {
@@ -424,7 +457,7 @@ void build_water(Builder& b) {
       b.error("S210", card.where("kind"),
               "water of kind " + std::to_string(kind) +
                   " is unknown; 0 dry, 1 phreatic line, 2 r_u, 3 nodes, 4 heads, 5 undrained, 6 drained, 7 "
-                  "heads of an earlier run");
+                  "heads of an earlier run, 8 rapid drawdown");
       continue;
     }
     if (action < 0 || action > 2) {
@@ -458,6 +491,7 @@ void build_water(Builder& b) {
     }
   }
   check_undrained(b);
+  check_drawdowns(b);
   warn_of_water_cards(b);
   if (!b.model.water.empty() || b.model.has_pores()) b.model.fields.add_free(water_fields());
   b.water_nodes = b.model.mesh.nodes();

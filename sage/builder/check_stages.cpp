@@ -90,6 +90,57 @@ void check_turned(Builder& b, const Stage& stage, const Activity& activity) {
   }
 }
 
+void check_ties(Builder& b, const Activity& activity) {
+  int last_line = 0;  // one message a card
+  for (const Tie& tie : b.model.ties)
+    for (const int node : {tie.node, tie.to})
+      if (tie.line != last_line && activity.turned_at(node) != nullptr) {
+        last_line = tie.line;
+        b.error("S370", b.at_line(tie.line), node_name(b, node) + " is tied and has a support at an angle");
+      }
+}
+
+// Supports of one tie that move differently in a stage.
+void check_tied_values(Builder& b, const Stage& stage, const Activity& activity) {
+  struct Moved {
+    double value = 0.0;
+    const TimeTable* history = nullptr;
+    int line = 0;
+  };
+  std::map<int, Moved> moved;  // by dof; those that stand still have no entry
+  for (const Fixity& f : stage.fixities)
+    for (std::size_t c = 0; c < 2; ++c)
+      if (f.code[c] == FixityCode::fixed && f.value[c] != 0.0)
+        moved[DofMap::displacement(f.node, static_cast<int>(c))] = {f.value[c], &f.history, f.line};
+  std::size_t dof_of_ties = 0;
+  for (const std::vector<int>& set : activity.tied) {
+    std::vector<std::pair<int, Moved>> supports;
+    for (const int dof : set)
+      if (activity.own_support[dof_of_ties++] != 0)
+        supports.emplace_back(dof, moved.contains(dof) ? moved.at(dof) : Moved());
+    const auto differs = [&](const std::pair<int, Moved>& one) {
+      const Moved &a = supports.front().second, &z = one.second;
+      return a.value != z.value || (a.value != 0.0 && *a.history != *z.history);
+    };
+    const auto other = std::ranges::find_if(supports, differs);
+    if (other == supports.end()) continue;
+    b.error("S370", b.at_line(std::max(supports.front().second.line, other->second.line)),
+            "stage " + std::to_string(stage.number) + ": " + node_name(b, supports.front().first / 2) +
+                " and " + node_name(b, other->first / 2) +
+                " are tied, but their supports move them differently");
+  }
+}
+
+void check_combined_dofs(Builder& b) {
+  Activity activity(b.model);
+  check_ties(b, activity);
+  for (const Stage& stage : b.model.stages) {
+    activity.enter(stage);
+    check_turned(b, stage, activity);
+    check_tied_values(b, stage, activity);
+  }
+}
+
 // Where r = 0, u_r = 0 and a circle has no length.
 class Axis {
  public:
@@ -156,10 +207,8 @@ void check_left(Builder& b) {
 }  // namespace
 
 void check_stages(Builder& b) {
-  Activity activity(b.model);
+  if (b.model.combines_dofs()) check_combined_dofs(b);
   for (const Stage& stage : b.model.stages) {
-    activity.enter(stage);
-    check_turned(b, stage, activity);
     warn_contradictions(b, stage);
     if (b.model.geometry == Geometry::axisymmetric) check_axis(b, stage);
   }

@@ -3,15 +3,14 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 #include "sage/builder/builder.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
 #include "sage/model/flow_line.hpp"
-#include "sage/model/spread_loads.hpp"
 #include "sage/model/water.hpp"
+#include "sage/model/weight_above.hpp"
 
 namespace sage::builder {
 
@@ -115,62 +114,12 @@ void warn_of_open_edges(Builder& b, const Activity& activity, const std::vector<
                 ", and by action 1 no water stands there: nothing balances the pressure");
 }
 
-// What structures put on the ground below them, loads and water along them included: force per area, by the line of each.
-class OnTheGround {
- public:
-  OnTheGround(const Model& model, int stage, const std::vector<char>& groups) {
-    std::vector<std::vector<double>> loads(model.groups.size());
-    for (std::size_t g = 0; g < model.groups.size(); ++g)
-      if (groups[g] && model.groups[g].structure()) loads[g] = spread_loads(model, stage, g);
-    Eigen::Matrix2Xd x;
-    for (const BesideStructure& one : structures_beside_water(model, stage, groups)) {
-      const Group& group = model.groups[one.group];
-      element_coordinates(model.mesh, group, one.element, x);
-      const Vector2 along = x.col(1) - x.col(0);
-      const bool ground = along.x() > 0.0 ? !one.right : !one.left,
-                 open = along.x() > 0.0 ? one.left : one.right;
-      if (!ground || !open || !(std::abs(along.x()) > model.mesh.reach)) continue;
-      Line line{x.col(0), x.col(1), 0.0};
-      const std::vector<double>& load = loads[one.group];
-      const auto dofs = static_cast<std::size_t>(group.element->traits().dofs);
-      const double ring =
-          model.geometry == Geometry::axisymmetric ? static_cast<double>(EIGEN_PI) * (x(0, 0) + x(0, 1)) : 1.0;
-      for (Eigen::Index i = 0; i < x.cols() && !load.empty(); ++i)
-        line.stress -=
-            load[static_cast<std::size_t>(one.element) * dofs + static_cast<std::size_t>(2 * i + 1)] /
-            (ring * std::abs(along.x()));
-      lines_.push_back(line);
-    }
-  }
-
-  // Above a place, where the ground ends at that level; nothing where no structure lies on it there.
-  std::optional<double> at(const Vector2& place, double top, double reach) const {
-    std::optional<double> sum;
-    for (const Line& line : lines_) {
-      const double part = (place.x() - line.from.x()) / (line.to.x() - line.from.x());
-      if (part < 0.0 || part > 1.0) continue;
-      const double level = line.from.y() + part * (line.to.y() - line.from.y());
-      if (std::abs(level - top) <= reach + 1e-6 * (line.to - line.from).norm())
-        sum = sum.value_or(0.0) + line.stress;
-    }
-    return sum;
-  }
-
- private:
-  struct Line {
-    Vector2 from, to;
-    double stress;
-  };
-  std::vector<Line> lines_;
-};
-
 // Where the pressure is more than all that lies above, water and structures on the ground included.
 void warn_of_uplift(Builder& b, const Activity& activity, const PorePressure& water, const Stage& stage,
                     double gravity) {
   if (!(gravity > 0.0)) return;
   const Model& model = b.model;
-  const Overburden above(model, activity.group, water.stage());
-  const OnTheGround structures(model, water.stage(), activity.group);
+  const WeightAbove above(model, activity.group, water.stage());
   int places = 0, worst_element = 0;
   double worst = 0.0;
   const WaterCard* card = nullptr;
@@ -184,12 +133,7 @@ void warn_of_uplift(Builder& b, const Activity& activity, const PorePressure& wa
       const double u = water.at_point(g, e, 0);
       if (!(u > 0.0)) continue;
       const Vector2 place = group.element->position(x, 0);
-      const Overburden::Above soil = above.above(place);
-      double total = gravity * soil.stress;
-      if (const std::optional<double> carried = structures.at(place, soil.top, model.mesh.reach))
-        total += *carried;
-      else if (own->kind == WaterKind::line && own->action != WaterAction::none)
-        total += model.units.water_unit_weight * std::max(0.0, water_level(*own, place.x()) - soil.top);
+      const double total = above.at(place, free_level(*own, place.x())).stress;
       if (!(u - total > 1e-6 * u)) continue;
       ++places;
       if (u - total <= worst) continue;
@@ -327,7 +271,9 @@ std::optional<double> allowed_jump(const WaterCard* one, const WaterCard* two) {
   bool exact = true;
   int ratios = 0;
   for (const WaterKind k : {kind(one), kind(two)}) {
-    if (k == WaterKind::undrained || k == WaterKind::drained || k == WaterKind::heads) return {};
+    if (k == WaterKind::undrained || k == WaterKind::drained || k == WaterKind::heads ||
+        k == WaterKind::drawdown)
+      return {};
     exact = exact && (k == WaterKind::line || k == WaterKind::dry);
     ratios += k == WaterKind::ratio ? 1 : 0;
   }

@@ -278,6 +278,12 @@ Deck InputCards::deck() {
   for (const GroupInput& group : input_.groups) add_group(group, ++number);
   add_elements();
   for (const SupportInput& support : input_.supports) add_support(support, "fixity", -1);
+  for (const TieInput& tie : input_.ties)
+    for (std::size_t i = 0; i < tie.nodes.size(); ++i)
+      add("fixity", {{"first", static_cast<double>(tie.nodes[i])},
+                     {"x_code", tie.x ? 3.0 : 0.0},
+                     {"y_code", tie.y ? 3.0 : 0.0},
+                     {"tie", static_cast<double>(tie.to + static_cast<int>(i) * tie.to_step)}});
   for (const InitialInput& initial : input_.initials) add_initial(initial, "initial", -1);
   number = 0;
   for (const StageInput& stage : input_.stages) add_stage(stage, ++number);

@@ -43,6 +43,14 @@ struct SupportInput {
   double angle = 0.0;        // degrees, anticlockwise from x: x is along a line at this angle, y normal to it
 };
 
+// In every stage the nodes move as another one does.  to_step: from it to the node that the next of them is tied to.
+struct TieInput {
+  std::vector<int> nodes;
+  int to = 0;
+  bool x = true, y = true;
+  int to_step = 0;
+};
+
 // Added on each of the nodes in this stage.
 struct LoadInput {
   std::vector<int> nodes;
@@ -109,6 +117,7 @@ struct ModelInput {
   std::vector<MaterialInput> materials = {};
   std::vector<GroupInput> groups = {};
   std::vector<SupportInput> supports = {};  // in every stage
+  std::vector<TieInput> ties = {};
   std::vector<InitialInput> initials = {};
   std::vector<StageInput> stages = {};
   std::vector<ReportInput> reports = {};

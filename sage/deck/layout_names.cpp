@@ -43,7 +43,7 @@ constexpr KnownCard kKnown[] = {
     {"sage1", "group", true, "number element material", "formulation name overlay second_material", ""},
     {"sage1", "element", true, "number n1 n2", kElement, ""},
     {"sage1", "fixity", false, "first x_code|y_code",
-     "last step x_code y_code x_value y_value unknown history angle", "?stage"},
+     "last step x_code y_code x_value y_value unknown history angle tie tie_step", "?stage"},
     {"sage1", "initial", false, "group v1", "kind v2 v3 v4 v5 v6 material parameter", "?stage"},
     {"sage1", "stage_title", false, "title", "", ""},
     {"sage1", "stage", true, "",

@@ -96,7 +96,11 @@ void lengthen_cards(Layout& layout) {
                             "that line, those of y normal to it; blank = 0",
                             FieldKind::real);
     angle.unit = "deg";
-    lengthen(layout, card, "F20.0", {angle});
+    lengthen(
+        layout, card, "F20.0,2I10",
+        {angle, field("tie", "code 3: number of the node as which the first node moves", FieldKind::integer),
+         field("tie_step", "code 3: from each to the next of these nodes; blank = all are tied to the one",
+               FieldKind::integer)});
   }
   lengthen(layout, "pressure", "A20,A80",
            {field("unknown",

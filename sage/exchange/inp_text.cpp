@@ -51,7 +51,7 @@ class InpWriter {
     if (model_.large_strain)
       warning(
           "large strain is left out: the steps are written without NLGEOM, whose elastic law is another one");
-    if (model_.combines_dofs()) warning("supports along turned lines and ties are left out");
+    if (model_.combines_dofs()) warning("inclined supports and ties are left out");
     if (!model_.reports.empty()) warning(std::to_string(model_.reports.size()) + " report(s) left out");
     if (!control_.empty())
       diagnostics_.add({Severity::note,

@@ -237,7 +237,7 @@ void warn_of_the_rest(const Model& model, const HeldDofs& beside, Diagnostics& d
   };
   word(model.geometry == Geometry::axisymmetric, "axisymmetry (--geometry 2)");
   word(model.large_strain, "large strain");
-  word(model.combines_dofs(), "supports along turned lines and ties");
+  word(model.combines_dofs(), "inclined supports and ties");
   word(!model.title.empty(), "title");
   const UnitSystem& units = model.units;
   word(units.length != "-" || units.force != "-" || units.stress != "-" || units.atmospheric_pressure != 0.0 ||

@@ -122,6 +122,8 @@ class Sage1Writer {
   void elements();
   void fixity(const Fixity& fixity, bool in_stage);
   void fixity(const TurnedFixity& fixity, bool in_stage);
+  std::size_t given_ties() const;
+  void tie(const Tie& tie);
   void fixity(const FieldFixity& fixity, bool in_stage);
   void unknown(int field, const TimeTable& history);
   void end_with_table(const TimeTable& history);
@@ -224,7 +226,7 @@ void Sage1Writer::control(std::size_t reports) {
       given_materials(),
       static_cast<std::size_t>(std::count(folded_.begin(), folded_.end(), 0)),
       elements,
-      given(model_.fixities) + given(model_.turned_fixities) + given(model_.field_fixities),
+      given(model_.fixities) + given(model_.turned_fixities) + given(model_.field_fixities) + given_ties(),
       of_groups(model_.initials),
       model_.stages.size(),
       reports,
@@ -361,6 +363,22 @@ void Sage1Writer::fixity(const TurnedFixity& fixity, bool in_stage) {
   for (double value : fixity.value) in_stage ? real(value) : blank_real();
   text_.append(in_stage ? 20 + 80 : 20, ' ');  // no unknown and no history
   real(fixity.angle);
+  line();
+}
+
+std::size_t Sage1Writer::given_ties() const {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      model_.ties, [&](const Tie& tie) { return is_given(tie.node) && is_given(tie.to); }));
+}
+
+void Sage1Writer::tie(const Tie& tie) {
+  if (!is_given(tie.node) || !is_given(tie.to)) return;
+  if (!wide_) throw TooWide{"of a tie"};
+  integer(node_number(tie.node));
+  two_zeros();
+  for (const char tied : tie.component) integer(tied ? 3 : 0);
+  text_.append(2 * real_width() + 20 + real_width(), ' ');  // no values, unknown and angle
+  integer(node_number(tie.to));
   line();
 }
 
@@ -613,9 +631,11 @@ std::string Sage1Writer::deck() {
   materials();
   groups();
   elements();
-  if (given(model_.fixities) + given(model_.turned_fixities) > 0) heading("* first last step xcod ycod");
+  if (given(model_.fixities) + given(model_.turned_fixities) + given_ties() > 0)
+    heading("* first last step xcod ycod");
   for (const Fixity& f : model_.fixities) fixity(f, false);
   for (const TurnedFixity& f : model_.turned_fixities) fixity(f, false);
+  for (const Tie& one : model_.ties) tie(one);
   for (const FieldFixity& f : model_.field_fixities) fixity(f, false);
   if (!model_.initials.empty()) heading("* group kind      v1        v2        v3        v4");
   for (const InitialStress& i : model_.initials) initial(i);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -268,6 +269,54 @@ void inherit_turned(Model& model, const std::vector<CutEdge>& edges) {
   }
 }
 
+// A made node of an edge: its place between the two known nodes around it, and itself.
+struct MadeBetween {
+  int before, after, node;
+  double share;
+};
+
+// A made node between two tied ones is tied as they are: to the node of both, or to the made node at the same place between
+// their partners.
+void inherit_ties(Model& model, const std::vector<CutEdge>& edges) {
+  if (model.ties.empty()) return;
+  std::vector<MadeBetween> all;
+  std::map<std::pair<int, int>, std::vector<std::size_t>> between;
+  for (const CutEdge& edge : edges)
+    for (const OnEdge& made : edge.made) {
+      const std::size_t behind = edge.behind(made);
+      const OnEdge &a = edge.known[behind - 1], &z = edge.known[behind];
+      between[std::minmax(a.node, z.node)].push_back(all.size());
+      all.push_back({a.node, z.node, made.node, (made.at - a.at) / (z.at - a.at)});
+    }
+  const std::vector<Tie> given = model.ties;
+  std::map<int, std::vector<const Tie*>> of_node;
+  for (const Tie& tie : given) of_node[tie.node].push_back(&tie);
+  const auto add = [&](const MadeBetween& made, int to, const Tie& one, const Tie& other) {
+    Tie tie{made.node, to, {}, one.line};
+    for (std::size_t c = 0; c < 2; ++c) tie.component[c] = one.component[c] && other.component[c];
+    if (tie.node != tie.to && (tie.component[0] || tie.component[1])) model.ties.push_back(tie);
+  };
+  for (const MadeBetween& made : all) {
+    if (const auto before = of_node.find(made.before), after = of_node.find(made.after);
+        before != of_node.end() && after != of_node.end())
+      for (const Tie* one : before->second)
+        for (const Tie* other : after->second) {
+          if (one->to == other->to) add(made, one->to, *one, *other);
+          const auto partners = between.find(std::minmax(one->to, other->to));
+          if (partners == between.end()) continue;
+          for (const std::size_t i : partners->second) {
+            const double share = all[i].before == one->to ? all[i].share : 1.0 - all[i].share;
+            if (std::abs(share - made.share) < 1e-9) add(made, all[i].node, *one, *other);
+          }
+        }
+    // Between a node and one that is tied to it.
+    for (const auto& [from, to] : {std::pair(made.before, made.after), {made.after, made.before}})
+      if (const auto tied = of_node.find(from); tied != of_node.end())
+        for (const Tie* tie : tied->second)
+          if (tie->to == to) add(made, to, *tie, *tie);
+  }
+}
+
 void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {
   Supports supports(model.mesh.nodes());
   follow_field(supports, field, model.field_fixities, edges);
@@ -358,6 +407,7 @@ void inherit_along_edges(Model& model, const EdgeTable& edges, int first_made) {
   supports.follow(model.fixities, cut);
   for (Stage& stage : model.stages) supports.follow(stage.fixities, cut);
   inherit_turned(model, cut);
+  inherit_ties(model, cut);
   const int pores = model.pore_field();
   for (std::size_t field = 1; field < model.unknowns.size(); ++field)
     if (static_cast<int>(field) != pores) inherit_field(model, static_cast<int>(field), cut);

@@ -75,6 +75,7 @@ void drop_lost_nodes(Work& b, std::vector<char> lost) {
   };
   std::erase_if(model.fixities, holds_lost);
   std::erase_if(model.turned_fixities, holds_lost);
+  std::erase_if(model.ties, [&](const Tie& tie) { return is_lost(tie.node) || is_lost(tie.to); });
   std::erase_if(model.field_fixities, holds_lost);
   for (Stage& stage : model.stages) {
     std::erase_if(stage.fixities, holds_lost);

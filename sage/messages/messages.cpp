@@ -794,6 +794,11 @@ constexpr MessageEntry kMessages[] = {
      "Bounds by limit analysis and --coarsen know supports along x and y alone.",
      "Run the model with sagefe run or sagefe safety, or turn its axes so that all supports are along x and "
      "y."},
+    {"S370", "a tie can't be so",
+     "A tie joins displacements of two nodes in all stages. Both cannot be moved differently, and none can "
+     "have "
+     "a support at an angle.",
+     "Give the card of the tie the code 3 in x, y or both and the number of the other node, and nothing else."},
 
     // S4: refining, grading and mid-side nodes.
     {"S401", "elements of different degree meet",
@@ -1331,7 +1336,7 @@ constexpr MessageEntry kMessages[] = {
      "materials of elements). They do not agree, or describe an impossible body.",
      "Correct the list that the message shows. sagefe echo DECK prints each value with its name."},
     {"S702", "a feature of that program is not translated",
-     "The deck of another program uses generation, turned supports or options that sagefe reads but does not "
+     "The deck of another program uses generation, inclined supports or options that sagefe reads but does not "
      "translate.",
      "Write the generated cards out, one by one, in the original program or in the deck."},
     {"S703", "a law of another program is replaced",

@@ -65,7 +65,7 @@ void Activity::enter(const Stage& stage) {
   for (const auto& [dof, supported] : pores) held[dof] = supported;
   std::size_t tied_dof = 0;
   for (const std::vector<int>& set : tied)
-    for (const int dof : set) held[dof] = held_before_ties_[tied_dof++];
+    for (const int dof : set) held[dof] = own_support[tied_dof++];
   for (const TurnedNode& node : turned)
     for (int c = 0; c < 2; ++c)
       held[DofMap::displacement(node.node, c)] = node.by_xy[static_cast<std::size_t>(c)];
@@ -147,9 +147,9 @@ void Activity::collect_tied(const Model& model) {
 
 // A support of one of them holds all.
 void Activity::settle_tied() {
-  held_before_ties_.clear();
+  own_support.clear();
   for (const std::vector<int>& set : tied) {
-    for (const int dof : set) held_before_ties_.push_back(held[dof]);
+    for (const int dof : set) own_support.push_back(held[dof]);
     const bool any = std::ranges::any_of(set, [&](int dof) { return held[dof] != 0; });
     for (const int dof : set) held[dof] = any ? 1 : 0;
   }
@@ -237,6 +237,26 @@ std::vector<int> connected_parts(const Model& model, const Carries& carries) {
   return part;
 }
 
+namespace {
+
+// Ties of one part hold the difference of two displacements.  Parts that are tied to others count as held by these.
+template <class Row>
+void add_ties(const Model& model, const std::vector<int>& part, const Row& row_of,
+              std::vector<Eigen::Matrix3d>& gram) {
+  for (const Tie& tie : model.ties) {
+    const int one = part[tie.node], other = part[tie.to];
+    if (one < 0 || other < 0) continue;
+    for (int c = 0; c < 2; ++c) {
+      if (!tie.component[static_cast<std::size_t>(c)]) continue;
+      const Eigen::Vector3d row = row_of(tie.node, c) - row_of(tie.to, c);
+      if (one == other) gram[one] += row * row.transpose();
+    }
+    if (one != other) gram[one] += Eigen::Matrix3d::Identity(), gram[other] += Eigen::Matrix3d::Identity();
+  }
+}
+
+}  // namespace
+
 std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity, const std::vector<int>& part) {
   const int parts = part.empty() ? 0 : *std::max_element(part.begin(), part.end()) + 1;
   std::vector<Eigen::Matrix3d> gram(static_cast<std::size_t>(parts), Eigen::Matrix3d::Zero());
@@ -251,12 +271,16 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
     ++count[p];
   }
   for (std::size_t p = 0; p < centre.size(); ++p) centre[p] /= std::max(1, count[p]);
+  // What the rigid modes of its part do to a displacement of the node.
+  const auto row_of = [&](int node, int component) {
+    const Vector2 d = (Vector2(model.mesh.x.col(node)) - centre[part[node]]) / reach;
+    return component == 0 ? Eigen::Vector3d(1.0, 0.0, -d.y()) : Eigen::Vector3d(0.0, 1.0, d.x());
+  };
   for (int node = 0; node < model.mesh.nodes(); ++node) {
     const int p = part[node];
     if (p < 0) continue;
     const auto pu = static_cast<std::size_t>(p);
-    const Vector2 d = (Vector2(model.mesh.x.col(node)) - centre[pu]) / reach;
-    const Eigen::Vector3d row_x(1.0, 0.0, -d.y()), row_y(0.0, 1.0, d.x());
+    const Eigen::Vector3d row_x = row_of(node, 0), row_y = row_of(node, 1);
     if (activity.holds(node, 0)) gram[pu] += row_x * row_x.transpose();
     if (activity.holds(node, 1)) gram[pu] += row_y * row_y.transpose();
     if (const TurnedNode* const turned = activity.turned_at(node); turned != nullptr && turned->slides) {
@@ -269,6 +293,7 @@ std::vector<LoosePart> loose_parts(const Model& model, const Activity& activity,
     }
   }
   std::vector<LoosePart> loose;
+  add_ties(model, part, row_of, gram);
   for (std::size_t p = 0; p < gram.size(); ++p) {
     std::string motion;
     if (model.geometry == Geometry::axisymmetric) {

@@ -54,6 +54,8 @@ struct Activity {
   std::vector<TurnedNode> turned;           // by rising node
   // Displacements that are equal: sets of dofs that ties join, each by rising number.
   std::vector<std::vector<int>> tied;
+  std::vector<char>
+      own_support;  // of each dof of `tied`, one set after the other: a support of its own holds it
 
  private:
   void collect_turned(const Model& model);
@@ -62,8 +64,7 @@ struct Activity {
   void settle_turned();
   void settle_tied();
 
-  std::vector<char> in_tie_;            // of each dof; empty = there are no ties
-  std::vector<char> held_before_ties_;  // of each dof of `tied`, one set after the other
+  std::vector<char> in_tie_;  // of each dof; empty = there are no ties
 };
 
 // What the supports of a node with turned ones add to its displacement over a stage.  by_xy: what those along x and y add.

@@ -218,6 +218,9 @@ enum class WaterKind {
   heads,      // from the heads of flow elements at the start of the stage
   undrained,  // water can't leave: its bulk over the porosity adds to that of the grains
   drained,    // what was undrained lets its excess go over the stage
+  // 7 on cards: heads of an earlier run, which become pressures at nodes
+  drawdown =
+      8,  // rapid: free water falls to a line, and the pressure in the ground by a share of what that takes away
 };
 enum class WaterAction {
   edges,  // water stands at free edges where there is pressure behind them, and in joints
@@ -231,13 +234,18 @@ struct WaterCard {
   int group = -1;  // index; -1 = all solids.  Of structures: the free water on their sides
   WaterKind kind = WaterKind::dry;
   WaterAction action = WaterAction::edges;
-  // ratio: r_u.  undrained: bulk of the water over the porosity.  structures: > 0 left side, < 0 right, 0 both
+  // ratio: r_u.  undrained: bulk of the water over the porosity.  drawdown: that share, B-bar.  structures: > 0 left side,
+  // < 0 right, 0 both
   double value = 0.0;
   std::vector<Vector2> line;                  // by rising x
   std::vector<std::pair<int, double>> nodes;  // node index and pressure
   SourcePosition where;
 
   bool pressure() const { return kind != WaterKind::undrained && kind != WaterKind::drained; }
+  // Places have a pressure without regard to nodes.
+  bool by_place() const {
+    return kind == WaterKind::line || kind == WaterKind::ratio || kind == WaterKind::drawdown;
+  }
 };
 
 enum class Method { newton, modified_newton, initial_stiffness, dogleg };
@@ -306,6 +314,11 @@ struct Stage {
     const auto has = [](const auto& card) { return !card.history.empty(); };
     return has_mechanical_histories() || std::ranges::any_of(field_fixities, has) ||
            std::ranges::any_of(field_loads, has);
+  }
+  // Supports of displacements do.
+  bool moves_supports() const {
+    const auto moves = [](const Fixity& f) { return f.value[0] != 0.0 || f.value[1] != 0.0; };
+    return std::ranges::any_of(fixities, moves) || std::ranges::any_of(turned_fixities, moves);
   }
   bool is_controlled() const { return control.node >= 0; }
   bool may_end_early() const { return end_degree > 0.0 || end_pressure > 0.0; }

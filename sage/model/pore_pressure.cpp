@@ -26,8 +26,7 @@ Overburden::Overburden(const Model& model, const std::vector<char>& groups, int 
       cell.unit_weight = model.material_of(group).unit_weight;
       cell.line = saturating_line(model, stage, g);
       cell.saturation = saturation_weight(model.material_of(group));
-      for (const std::vector<int>& edge : group.element->edges())
-        cell.corners.push_back(model.mesh.x.col(group.nodes_of(e)[edge[0]]));
+      cell.corners = corners_of(model, group, e);
       for (const Vector2& corner : cell.corners) {
         low_ = std::min(low_, corner.x());
         high = std::max(high, corner.x());
@@ -82,6 +81,7 @@ PorePressure::PorePressure(const Model& model, int stage, const std::vector<char
       stage_(stage),
       groups_(groups),
       cards_(model.groups.size(), nullptr),
+      falls_(model.groups.size()),
       nodes_(model.groups.size()) {
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     if (groups[g] && model.groups[g].structure())
@@ -90,10 +90,16 @@ PorePressure::PorePressure(const Model& model, int stage, const std::vector<char
     if (!groups[g] || !model.groups[g].solid()) continue;
     const WaterCard* const card = water_card(model, stage, static_cast<int>(g));
     if (card == nullptr || (card->kind == WaterKind::heads && unknowns == nullptr)) continue;
+    if (card->kind == WaterKind::drawdown) {
+      const int group = static_cast<int>(g);
+      falls_[g] = {line_before(model, *card, group),
+                   is_undrained(model, card->stage, group) ? 0.0 : card->value};
+      if (falls_[g].before == nullptr) continue;  // the deck has an error
+    }
     cards_[g] = card;
     if (card->kind == WaterKind::nodes) take_nodes(*card, g);
     if (card->kind == WaterKind::heads) take_heads(g, map, unknowns);
-    if (card->kind == WaterKind::ratio && overburden_ == nullptr)
+    if ((card->kind == WaterKind::ratio || card->kind == WaterKind::drawdown) && overburden_ == nullptr)
       overburden_ = std::make_shared<const Overburden>(model, groups, stage);
   }
 }
@@ -143,13 +149,42 @@ double PorePressure::nodal(std::size_t group, int element, std::span<const doubl
   return std::max(0.0, u);
 }
 
+double PorePressure::below(const WaterCard& line, const Vector2& place) const {
+  return std::max(0.0, share_of_depth(line, place.x()) * model_->units.water_unit_weight *
+                           (water_level(line, place.x()) - place.y()));
+}
+
+// docs/theory/effective_stress.md, "Rapid drawdown".
+double PorePressure::drawn_down(std::size_t group, int element, const Vector2& place) const {
+  const WaterCard &now = *cards_[group], &before = *falls_[group].before;
+  // A little inside the element: on a vertical side the ground of the element counts, not that behind the side.
+  const std::vector<Vector2> corners = corners_of(*model_, model_->groups[group], element);
+  const double inward = corners[0].x() + corners[2].x() - 2.0 * place.x();
+  const Vector2 inside(place.x() + std::copysign(1e-12 * (std::abs(place.x()) + std::abs(inward)), inward),
+                       place.y());
+  const double ground = overburden_->above(inside).top;
+  const auto depth_of_water = [&](const WaterCard& line) {
+    return std::max(0.0, water_level(line, place.x()) - ground);
+  };
+  const double fall = std::max(0.0, depth_of_water(before) - depth_of_water(now));
+  return std::max(0.0, below(before, place) - falls_[group].share * model_->units.water_unit_weight * fall);
+}
+
+double PorePressure::outside(std::size_t group, int element, const Vector2& place,
+                             std::span<const double> N) const {
+  const WaterCard* const card = cards_[group];
+  if (card == nullptr || card->kind != WaterKind::drawdown) return at(group, element, place, N);
+  return std::max(0.0, model_->units.water_unit_weight * (water_level(*card, place.x()) - place.y()));
+}
+
 double PorePressure::at(std::size_t group, int element, const Vector2& place, std::span<const double> N) const {
   const WaterCard* const card = cards_[group];
   if (card == nullptr) return 0.0;
   switch (card->kind) {
     case WaterKind::line:
-      return std::max(0.0, share_of_depth(*card, place.x()) * model_->units.water_unit_weight *
-                               (water_level(*card, place.x()) - place.y()));
+      return below(*card, place);
+    case WaterKind::drawdown:
+      return drawn_down(group, element, place);
     case WaterKind::ratio:
       return card->value * overburden_->above(place).stress;
     default:

@@ -40,30 +40,19 @@ std::vector<Polygon> parts_below(const Polygon& whole, const std::vector<Vector2
   return parts;
 }
 
-Polygon corners_of(const Model& model, const Group& group, int element) {
-  Polygon corners;
-  for (const std::vector<int>& edge : group.element->edges())
-    corners.push_back(model.mesh.x.col(group.nodes_of(element)[edge[0]]));
-  return corners;
-}
-
 // Sums N times the measure over a triangle within an element with nodes at x.
 void add_triangle(const Model& model, const Group& group, const Eigen::Matrix2Xd& x,
                   const std::array<Vector2, 3>& triangle, std::vector<double>& sum) {
   const Vector2 along = triangle[1] - triangle[0], across = triangle[2] - triangle[0];
   const double area2 = along.x() * across.y() - along.y() * across.x();
-  const water::GaussRule rule(group.element->traits().degree + 2);
   Vector2 parent = Vector2::Zero();
   std::vector<double> N;
-  for (std::size_t i = 0; i < rule.x.size(); ++i)
-    for (std::size_t j = 0; j < rule.x.size(); ++j) {
-      // The square folded onto the triangle.
-      const double s = 0.5 * (1.0 + rule.x[i]), t = 0.5 * (1.0 + rule.x[j]);
-      const Vector2 place = triangle[0] + s * along + (1.0 - s) * t * across;
-      if (!find_parent(group, x, place, parent, N)) continue;
-      const double w = 0.25 * rule.w[i] * rule.w[j] * (1.0 - s) * area2 * water::measure(model, place);
-      for (std::size_t n = 0; n < N.size(); ++n) sum[n] += w * N[n];
-    }
+  for (const water::RulePlace& q : water::rule_for(true, group.element->traits().degree)) {
+    const Vector2 place = triangle[0] + q.parent.x() * along + q.parent.y() * across;
+    if (!find_parent(group, x, place, parent, N)) continue;
+    const double w = q.weight * area2 * water::measure(model, place);
+    for (std::size_t n = 0; n < N.size(); ++n) sum[n] += w * N[n];
+  }
 }
 
 }  // namespace
@@ -75,7 +64,9 @@ double saturation_weight(const Material& material) {
 const WaterCard* saturating_line(const Model& model, int stage, std::size_t group) {
   if (!model.groups[group].solid() || saturation_weight(model.material_of(model.groups[group])) == 0.0)
     return nullptr;
-  const WaterCard* const card = water_card(model, stage, static_cast<int>(group));
+  const WaterCard* card = water_card(model, stage, static_cast<int>(group));
+  if (card != nullptr && card->kind == WaterKind::drawdown)  // the ground stays saturated
+    card = line_before(model, *card, static_cast<int>(group));
   return card != nullptr && card->kind == WaterKind::line ? card : nullptr;
 }
 
@@ -86,7 +77,7 @@ void add_saturation_weight(const Model& model, std::size_t group, const WaterCar
   Eigen::Matrix2Xd x;
   std::vector<double> sum, f;
   for (int e = 0; e < own.elements(); ++e) {
-    const Polygon corners = corners_of(model, own, e);
+    const Polygon corners = water::corners_of(model, own, e);
     const std::vector<Polygon> parts = parts_below(corners, line.line);
     if (parts.empty()) continue;
     element_coordinates(model.mesh, own, e, x);

@@ -1,6 +1,7 @@
 #include "sage/model/water.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sage/model/water_parts.hpp"
@@ -14,6 +15,21 @@ const WaterCard* water_card(const Model& model, int stage, int group) {
     if (found == nullptr || card.stage >= found->stage) found = &card;
   }
   return found != nullptr && found->kind != WaterKind::dry ? found : nullptr;
+}
+
+const WaterCard* line_before(const Model& model, const WaterCard& drawdown, int group) {
+  const WaterCard* card = &drawdown;
+  while (card != nullptr && card->kind == WaterKind::drawdown && card->stage > 0)
+    card = water_card(model, card->stage - 1, group);
+  return card != nullptr && card->kind == WaterKind::line ? card : nullptr;
+}
+
+bool is_undrained(const Model& model, int stage, int group) {
+  const WaterCard* found = nullptr;
+  for (const WaterCard& card : model.water)
+    if (!card.pressure() && card.stage <= stage && (card.group < 0 || card.group == group))
+      if (found == nullptr || card.stage >= found->stage) found = &card;
+  return found != nullptr && found->kind == WaterKind::undrained;
 }
 
 const WaterCard* water_card(const Model& model, int stage, int group, WaterSide side) {
@@ -37,6 +53,12 @@ double water_level(const WaterCard& card, double x) {
   return line.back().y();
 }
 
+double free_level(const WaterCard& card, double x) {
+  const bool level = card.kind == WaterKind::line || card.kind == WaterKind::drawdown;
+  const bool free = level && card.action != WaterAction::none;
+  return free ? water_level(card, x) : -std::numeric_limits<double>::infinity();
+}
+
 namespace water {
 
 GaussRule::GaussRule(int n) {
@@ -57,6 +79,29 @@ GaussRule::GaussRule(int n) {
     x.push_back(t);
     w.push_back(2.0 / ((1.0 - t * t) * slope * slope));
   }
+}
+
+std::vector<RulePlace> rule_for(bool triangle, int degree) {
+  const GaussRule line(degree + 2);
+  std::vector<RulePlace> places;
+  for (std::size_t i = 0; i < line.x.size(); ++i)
+    for (std::size_t j = 0; j < line.x.size(); ++j) {
+      if (!triangle) {
+        places.push_back({{line.x[i], line.x[j]}, line.w[i] * line.w[j]});
+        continue;
+      }
+      // The square folded onto the triangle.
+      const double s = 0.5 * (1.0 + line.x[i]), t = 0.5 * (1.0 + line.x[j]);
+      places.push_back({{s, (1.0 - s) * t}, 0.25 * line.w[i] * line.w[j] * (1.0 - s)});
+    }
+  return places;
+}
+
+std::vector<Vector2> corners_of(const Model& model, const Group& group, int element) {
+  std::vector<Vector2> corners;
+  for (const std::vector<int>& edge : group.element->edges())
+    corners.push_back(model.mesh.x.col(group.nodes_of(element)[edge[0]]));
+  return corners;
 }
 
 double measure(const Model& model, const Vector2& place) {

@@ -15,6 +15,12 @@ namespace sage {
 // group or about all and begins no later.  nullptr = dry.
 const WaterCard* water_card(const Model& model, int stage, int group);
 
+// The phreatic line from before a drawdown of the group (a card of that kind); nullptr = it had another kind of water.
+const WaterCard* line_before(const Model& model, const WaterCard& drawdown, int group);
+
+// The group is undrained in a stage (0-based): its water can't leave.
+bool is_undrained(const Model& model, int stage, int group);
+
 // Of the way from an element's first node to its second.
 enum class WaterSide { left, right };
 // The card that holds for the free water on a side of a group of structures: the last of the deck that is about that
@@ -39,11 +45,15 @@ class PorePressure {
   // Gradient there; dN: of the shape functions along x and y, one row a node.  Zero where u is.
   Vector2 gradient(std::size_t group, int element, const Vector2& place, std::span<const double> N,
                    const Eigen::MatrixX2d& dN) const;
+  // Of the water outside, on a free edge there.
+  double outside(std::size_t group, int element, const Vector2& place, std::span<const double> N) const;
   // At an integration point.
   double at_point(std::size_t group, int element, int point) const;
 
  private:
   double nodal(std::size_t group, int element, std::span<const double> N) const;
+  double below(const WaterCard& line, const Vector2& place) const;
+  double drawn_down(std::size_t group, int element, const Vector2& place) const;
   void take_nodes(const WaterCard& card, std::size_t group);
   void take_heads(std::size_t group, const DofMap& map, const Eigen::VectorXd* unknowns);
   void fill_middles(std::size_t group);
@@ -52,6 +62,12 @@ class PorePressure {
   int stage_;
   std::vector<char> groups_;
   std::vector<const WaterCard*> cards_;
+  // By group: of drawdowns, the line from before and the share of the fall that the pressure follows.
+  struct Fall {
+    const WaterCard* before = nullptr;
+    double share = 0.0;
+  };
+  std::vector<Fall> falls_;
   bool beside_ = false;                     // free water stands on structures
   std::vector<std::vector<double>> nodes_;  // by group: u of every node of the mesh, of cards about nodes
   std::shared_ptr<const class Overburden> overburden_;
@@ -81,6 +97,8 @@ class Overburden {
 
 // Level of a phreatic line at x: linear between its points, level beyond the first and the last.
 double water_level(const WaterCard& card, double x);
+// The same where the card puts free water on the ground; else far below.
+double free_level(const WaterCard& card, double x);
 
 // What water does to the mesh at the end of a stage, one entry a dof: its pressure in the solids (sum of B^T u),
 // and on their free edges and in their joints, and on free sides of structures that have a card; or, of cards that say

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
@@ -11,28 +12,6 @@ namespace sage {
 using namespace water;
 
 namespace {
-
-struct RulePlace {
-  Vector2 parent;
-  double weight;
-};
-
-// Exact for the products that a straight-sided element of that degree has here.
-std::vector<RulePlace> rule_for(bool triangle, int degree) {
-  const GaussRule line(degree + 2);
-  std::vector<RulePlace> places;
-  for (std::size_t i = 0; i < line.x.size(); ++i)
-    for (std::size_t j = 0; j < line.x.size(); ++j) {
-      if (!triangle) {
-        places.push_back({{line.x[i], line.x[j]}, line.w[i] * line.w[j]});
-        continue;
-      }
-      // The square folded onto the triangle.
-      const double s = 0.5 * (1.0 + line.x[i]), t = 0.5 * (1.0 + line.x[j]);
-      places.push_back({{s, (1.0 - s) * t}, 0.25 * line.w[i] * line.w[j] * (1.0 - s)});
-    }
-  return places;
-}
 
 Vector2 parent_corner(bool triangle, int corner) {
   static const Vector2 kSquare[] = {{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}};
@@ -196,6 +175,20 @@ class WaterForce {
     }
   }
 
+  // Supports hold both ends of the edge against its normal: the ground goes on behind it.
+  bool is_held(const FreeEdge& edge) const {
+    const Group& group = model_.groups[edge.group];
+    const std::vector<int>& local = group.element->edges()[edge.edge];
+    const int* const nodes = group.nodes_of(edge.element);
+    const int a = nodes[local[0]], z = nodes[local[1]];
+    const Vector2 along = model_.mesh.x.col(z) - model_.mesh.x.col(a);
+    const auto holds = [&](int component) {
+      return std::abs(along[1 - component]) <= model_.mesh.reach ||
+             (activity_.holds(a, component) && activity_.holds(z, component));
+    };
+    return holds(0) && holds(1);
+  }
+
   // -u n on the solid; what lies behind a joint gets the opposite unless it is wet itself.
   void add_edge(const FreeEdge& edge, const std::set<std::pair<int, int>>& wet) {
     const Group& group = model_.groups[edge.group];
@@ -207,11 +200,11 @@ class WaterForce {
       const auto other = [&](int corner) { return behind->at(nodes[local[corner]]); };
       if (wet.contains(edge_key(other(0), other(1)))) behind = nullptr;
     }
-    press_edge(edge, 1.0, behind);
+    press_edge(edge, 1.0, behind, joint == joints_.end() && !is_held(edge));
   }
 
-  // -u n on the solid, times sense, and the opposite on the nodes behind.
-  void press_edge(const FreeEdge& edge, double sense, const std::map<int, int>* behind) {
+  // -u n on the solid, times sense, and the opposite on the nodes behind.  open: u of the water outside.
+  void press_edge(const FreeEdge& edge, double sense, const std::map<int, int>* behind, bool open = false) {
     const auto g = static_cast<std::size_t>(edge.group);
     const Group& group = model_.groups[g];
     const bool triangle = group.entry->triangle();
@@ -224,7 +217,8 @@ class WaterForce {
       mapped_.take(*group.element, x_, from + 0.5 * (1.0 + line.x[q]) * (to - from));
       const Vector2 along = 0.5 * mapped_.J * (to - from);
       const double w = sense * line.w[q] * measure(model_, mapped_.place);
-      const double u = water_.at(g, edge.element, mapped_.place, mapped_.N);
+      const double u = open ? water_.outside(g, edge.element, mapped_.place, mapped_.N)
+                            : water_.at(g, edge.element, mapped_.place, mapped_.N);
       if (!(u > 0.0)) continue;
       for (const int i : local) {
         const Vector2 f = mapped_.N[i] * w * u * Vector2(-along.y(), along.x());

@@ -38,6 +38,17 @@ struct GaussRule {
   explicit GaussRule(int n);
 };
 
+// Place on the parent shape, and the weight there.
+struct RulePlace {
+  Vector2 parent;
+  double weight;
+};
+// Exact for the products that a straight-sided element of that degree has in the forces of water.
+std::vector<RulePlace> rule_for(bool triangle, int degree);
+
+// Of a solid.
+std::vector<Vector2> corners_of(const Model& model, const Group& group, int element);
+
 // 1, or 2 pi r.
 double measure(const Model& model, const Vector2& place);
 

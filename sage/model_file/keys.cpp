@@ -18,7 +18,7 @@ struct Change {
   std::vector<CodeName> codes = {};
 };
 
-const std::vector<CodeName> kHold{{0, "free"}, {1, "fixed"}, {-1, "released"}, {2, "exit"}};
+const std::vector<CodeName> kHold{{0, "free"}, {1, "fixed"}, {-1, "released"}, {2, "exit"}, {3, "tied"}};
 const std::vector<CodeName> kInitial{{0, "uniform"},  {1, "geostatic"}, {2, "zero"},
                                      {3, "traction"}, {4, "history"},   {5, "lock off"},
                                      {6, "material"}, {7, "parameter"}, {8, "at rest"}};
@@ -68,7 +68,8 @@ const std::vector<Change>& changes() {
         {4, "heads"},
         {5, "undrained"},
         {6, "drained"},
-        {7, "earlier heads"}}},
+        {7, "earlier heads"},
+        {8, "drawdown"}}},
       {"water", "group", Want::group},
       {"water", "action", Want::code, {}, {{0, "edges"}, {1, "none"}, {2, "force"}}},
       {"water", "values", Want::pairs},

@@ -92,6 +92,11 @@ SupportInput support_of(const py::handle& object) {
           attribute<double>(object, "angle")};
 }
 
+TieInput tie_of(const py::handle& object) {
+  return {attribute<std::vector<int>>(object, "nodes"), attribute<int>(object, "to"),
+          attribute<bool>(object, "x"), attribute<bool>(object, "y"), attribute<int>(object, "to_step")};
+}
+
 LoadInput load_of(const py::handle& object) {
   return {attribute<std::vector<int>>(object, "nodes"), attribute<double>(object, "x"),
           attribute<double>(object, "y"), attribute<std::string>(object, "unknown")};
@@ -234,6 +239,7 @@ ModelInput input_of(const py::object& object) {
   input.materials = list_of<MaterialInput>(object, "materials", material_of);
   input.groups = list_of<GroupInput>(object, "groups", group_of);
   input.supports = list_of<SupportInput>(object, "supports", support_of);
+  input.ties = list_of<TieInput>(object, "ties", tie_of);
   input.initials = list_of<InitialInput>(object, "initials", initial_of);
   input.stages = list_of<StageInput>(object, "stages", [](const py::handle& one) { return stage_of(one); });
   input.reports = list_of<ReportInput>(object, "reports", report_of);

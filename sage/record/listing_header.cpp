@@ -110,6 +110,10 @@ std::string water_text(const Model& model, const WaterCard& card) {
       text = "phreatic line";
       for (const Vector2& x : card.line) text += fmt::format(" ({:.6g}, {:.6g})", x.x(), x.y());
       break;
+    case WaterKind::drawdown:
+      text = fmt::format("rapid drawdown, B-bar {:.6g}, to", card.value);
+      for (const Vector2& x : card.line) text += fmt::format(" ({:.6g}, {:.6g})", x.x(), x.y());
+      break;
     case WaterKind::ratio:
       return fmt::format("r_u {:.6g}", card.value);
     case WaterKind::nodes:
@@ -223,7 +227,8 @@ void description(std::string& text, const Model& model, const Scene& scene, std:
                    "   (in hyperbolic laws only, the water's in clough_duncan interfaces {})\n",
                    model.units.atmospheric_pressure, model.units.stress, model.units.water_unit_weight,
                    unit_text(Dimension::unit_weight, model.units),
-                   model.water.empty() ? "only: no pore pressure is computed" : "and in pore pressures");
+                   model.water.empty() && !model.has_pores() ? "only: no pore pressure is computed"
+                                                             : "and in pore pressures");
   if (!model.water.empty())
     text += "   stress is effective stress; total_stress and pore_pressure are fields of their own\n";
   heading(text, "SCENE");
@@ -244,6 +249,7 @@ void counts(std::string& text, const Model& model) {
       model.mesh.nodes(), made > 0 ? fmt::format(" ({} made by the program)", made) : "", elements, points,
       fixity_count(model.fixities, FixityCode::fixed) + fixity_count(model.turned_fixities, FixityCode::fixed),
       model.stages.size(), model.reports.size());
+  if (!model.ties.empty()) fmt::format_to(to(text), "   ties {}\n", model.ties.size());
 }
 
 void materials(std::string& text, const Model& model, const Catalogue& catalogue) {

@@ -7,9 +7,8 @@
 
 namespace sage {
 
-// Of what lies above a line, per unit thickness or the full circle, at the end of a stage.  Free water on the ground counts as
-// weight, structures don't.
-//   weight       W: total weight of soil and free water above the line                                  [force]
+// Of what lies above a line, per unit thickness or the full circle, at the end of a stage.
+//   weight       W: total weight of soil, structures on the ground with their loads, and free water     [force]
 //   water        U: pore pressure on the line times its width, the larger one of both sides             [force]
 //   uplift       W / U
 //   heave        (W - U0) / (U - U0), U0 being the pressure of water at rest below the surface of ground or free water: the

@@ -189,7 +189,7 @@ Json stages_json(const Model& model) {
     listing::stage(text, model, static_cast<int>(s));
     Json water = Json::array();
     for (const WaterCard& card : model.water) {
-      if (card.stage != static_cast<int>(s) || card.kind != WaterKind::line) continue;
+      if (card.stage != static_cast<int>(s) || card.line.empty()) continue;
       Json line = Json::array();
       for (const Vector2& x : card.line) line.push_back({x.x(), x.y()});
       water.push_back(std::move(line));

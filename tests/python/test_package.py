@@ -187,6 +187,15 @@ def test_model_of_arrays():
         sagefe.build([(0, 0)], [], [], [], supports=[sagefe.Support([1], "held")])
 
 
+def test_ties_spread_a_force():
+    """100 kN on one of two nodes that settle alike are 100 kPa on the column of 1 m, which shortens by p H / E."""
+    model = sagefe.build(
+        [(0, 0), (1, 0), (1, 1), (0, 1)], [sagefe.Material("linear_elastic", youngs_modulus=20e3, poissons_ratio=0.0)],
+        [sagefe.Group("quad4", [(1, 2, 3, 4)])], [sagefe.Stage(1, loads=[sagefe.Load([3], y=-100.0)])],
+        supports=[sagefe.Support([1, 2], "fixed", "fixed")], ties=[sagefe.Tie([3], 4, x=False)], units=("m", "kN", "kPa"))
+    np.testing.assert_allclose(model.run()[-1].nodes.displacement[2:, 1], -0.005, rtol=1e-12)
+
+
 def test_no_equilibrium():
     """A smooth column without lateral support has the strength 2 c = 20 kPa: 100 kPa have no equilibrium."""
     model = sagefe.build(

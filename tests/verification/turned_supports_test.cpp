@@ -1,5 +1,5 @@
 // Supports along turned lines: models that are turned as a whole, closed forms with symmetry along a turned line, what
-// becomes of the supports on finer meshes and in files, and input that is rejected.  docs/manual/stages.md
+// becomes of the supports on finer meshes and in files, and input that is rejected.  Ties of nodes.  docs/manual/supports.md
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -325,6 +325,122 @@ TEST(TurnedSupports, TwoDirectionsPlaceANode) {
   const WholeRun run = complete(input);
   EXPECT_NEAR(turn(run.u(node), -20.0).x(), 0.01, 1e-15);
   EXPECT_NEAR(turn(run.u(node), -50.0).x(), 0.005, 1e-15);
+}
+
+// ---- Ties
+
+SupportInput held(std::vector<int> nodes, bool x, bool y) {
+  const auto code = [](bool is_held) { return is_held ? FixityCode::fixed : FixityCode::unchanged; };
+  return {.nodes = std::move(nodes), .x = code(x), .y = code(y)};
+}
+
+BuildOptions refined(int times) {
+  BuildOptions options;
+  options.refine = times;
+  return options;
+}
+
+// A layer of height h between sides that are tied to each other goes on for ever: under a pressure p and a shear stress t
+// on its surface u_x = t y / G and u_y = -p y / M, with the constrained modulus M.
+TEST(Ties, SidesOfAPeriodicLayerMoveAlike) {
+  const double h = 2.0, p = 10.0, t = 4.0, shear = kModulus / (2.0 * (1.0 + kPoisson));
+  const double constrained = kModulus * (1.0 - kPoisson) / ((1.0 + kPoisson) * (1.0 - 2.0 * kPoisson));
+  const Patch patch{2, 3};
+  ModelInput input = patch.input(
+      [&](double x, double y) { return Vector2(x + 0.1 * std::sin(7.0 * x) * std::sin(3.14 * x) * y, h * y); },
+      Geometry::plane_strain);
+  for (int j = 0; j <= 2 * patch.rows; ++j) input.nodes[patch.node(4, j) - 1].x() = 1.0;
+  input.supports = {held(patch.row(0), true, true)};
+  for (int j = 0; j <= 2 * patch.rows; ++j) input.ties.push_back({{patch.node(4, j)}, patch.node(0, j)});
+  StageInput stage;
+  stage.pressures = {
+      {.elements = patch.elements_of_row(2), .edge = 3, .normal1 = p, .normal2 = p, .shear1 = t, .shear2 = t}};
+  input.stages = {stage};
+  for (const int times : {0, 1}) {
+    const WholeRun run = complete(input, refined(times));
+    double sign = 0.0;  // of shear, which is along the edge
+    for (int node = 0; node < run.model->mesh.nodes(); ++node) {
+      const double y = run.model->mesh.x(1, node);
+      const Vector2 u = run.last().u.segment<2>(DofMap::displacement(node));
+      if (sign == 0.0 && y > 0.0) sign = u.x() > 0.0 ? 1.0 : -1.0;
+      EXPECT_NEAR(u.x(), sign * t * y / shear, 1e-13);
+      EXPECT_NEAR(u.y(), -p * y / constrained, 1e-13);
+    }
+  }
+}
+
+// A rigid smooth cap on two columns of moduli E and 3 E, nu = 0: they share the force as springs do.  In axisymmetry a rigid
+// disc on one.  All nodes of the cap are tied to the first.
+TEST(Ties, ARigidCapSettlesEvenly) {
+  const double h = 2.0, force = -12.0;
+  for (const Geometry geometry : {Geometry::plane_strain, Geometry::axisymmetric}) {
+    const bool plane = geometry == Geometry::plane_strain;
+    const Patch patch{2, 2};
+    ModelInput input = patch.input([&](double x, double y) { return Vector2(x, h * y); }, geometry);
+    input.materials[0].parameters = {{"youngs_modulus", kModulus}, {"poissons_ratio", 0.0}};
+    if (plane) {
+      input.materials.push_back(input.materials[0]);
+      input.materials[1].parameters = {{"youngs_modulus", 3.0 * kModulus}, {"poissons_ratio", 0.0}};
+      input.groups.push_back(input.groups[0]);
+      input.groups[1].material = 2;
+      input.groups[0].elements = {input.groups[0].elements[0], input.groups[0].elements[2]};
+      input.groups[1].elements = {input.groups[1].elements[1], input.groups[1].elements[3]};
+    }
+    input.supports = {held(patch.row(0), true, true)};
+    input.supports.push_back(held(patch.column(0), true, false));
+    const std::vector<int> top = patch.row(4);
+    input.ties = {{.nodes = top, .to = top[1], .x = false}};
+    input.stages = {
+        {.loads = {{.nodes = {top[0]}, .y = 0.25 * force}, {.nodes = {top[2]}, .y = 0.75 * force}}}};
+    const double stiffness = plane ? (0.5 * kModulus + 1.5 * kModulus) / h : kPi * kModulus / h;
+    for (const int times : {0, 1}) {
+      const WholeRun run = complete(input, refined(times));
+      for (int node = 0; node < run.model->mesh.nodes(); ++node) {
+        const double y = run.model->mesh.x(1, node);
+        const Vector2 u = run.last().u.segment<2>(DofMap::displacement(node));
+        EXPECT_NEAR(u.y(), force / stiffness * y / h, 1e-13);
+        EXPECT_NEAR(u.x(), 0.0, 1e-14);
+      }
+    }
+    // Moved at one node, the cap takes the others along, and the sum of reactions is the same force.
+    input.stages[0].loads.clear();
+    input.stages[0].supports = {held({top[3]}, false, true)};
+    input.stages[0].supports[0].y_value = force / stiffness;
+    const WholeRun moved = complete(input);
+    EXPECT_NEAR(moved.reaction(moved.last(), top, 1), force, 1e-10);
+    for (const int node : top) EXPECT_NEAR(moved.u(node).y(), force / stiffness, 1e-15);
+  }
+}
+
+TEST(Ties, AreKeptInDecksAndRejectedByName) {
+  const Patch patch{2, 2};
+  ModelInput good = patch.input([](double x, double y) { return Vector2(x, y); }, Geometry::plane_strain);
+  good.supports = {held(patch.row(0), true, true)};
+  good.ties = {{.nodes = patch.row(4), .to = patch.node(0, 4), .x = false}};
+  good.stages = {{.loads = {{.nodes = {patch.node(0, 4)}, .y = -1.0}}}};
+  const Catalogue& all = turned_bench().catalogue();
+  const Model model = build_model(good, all);
+  EXPECT_EQ(model.ties.size(), 4u);
+  Diagnostics notes;
+  const Model again =
+      build_model(read_deck_text(sage1_text(model, notes), "written", load_layout("sage1_wide")), all);
+  for (const Diagnostic& note : notes.list()) ADD_FAILURE() << to_string(note);
+  EXPECT_EQ(fingerprint(again), fingerprint(model));
+  const auto with = [&](const std::function<void(ModelInput&)>& change) {
+    ModelInput input = good;
+    change(input);
+    return refusal(input);
+  };
+  EXPECT_NE(with([](ModelInput& m) { m.ties[0].y = false; }).find("S370"), std::string::npos);
+  EXPECT_NE(
+      with([&](ModelInput& m) { m.supports.push_back(held_across({patch.node(2, 4)}, 30.0)); }).find("S370"),
+      std::string::npos);
+  EXPECT_NE(with([&](ModelInput& m) {
+              m.stages[0].supports = {held_across({patch.node(1, 4)}, 0.0, 0.1),
+                                      held_across({patch.node(3, 4)}, 0.0, 0.2)};
+            }).find("S370"),
+            std::string::npos);
+  EXPECT_NE(with([](ModelInput& m) { m.ties[0].to = 999; }), "taken");
 }
 
 }  // namespace

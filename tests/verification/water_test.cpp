@@ -413,6 +413,67 @@ TEST(Water, DrawdownSettles) {
       << "in proportion over the stage";
 }
 
+// Ground of height 8 under 4 of water, which falls by 3 and then away.  Its total stress falls by gamma_w times the fall and its
+// pressure by B-bar of that, so that it heaves by the rest over the constrained modulus.  What falls below the ground counts
+// no more.
+TEST(Water, RapidDrawdownOfAColumn) {
+  Block block = cells(1, 4, Cell::quad8);
+  block.place = rectangle(0.0, 1.0, 0.0, 8.0);
+  const double M = 1e4 * 0.7 / (1.3 * 0.4);
+  for (const int geometry : {1, 2})
+    for (const double b_bar : {1.0, 0.6}) {
+      DeckWriter deck = slope(block, geometry, 20.0);
+      deck.water(1, 0, 1, 0, {0.0, 12.0});
+      deck.water(8, 0, 2, 0, {0.0, 9.0}, b_bar);
+      deck.water(8, 0, 3, 0, {0.0, 5.0}, b_bar);
+      deck.stage();
+      deck.stage();
+      const WholeRun run = bench().run(deck.text());
+      ASSERT_EQ(run.increments.size(), 3U);
+      const auto top = [&](std::size_t k) { return run.increments[k].u[2 * run.index(block.top()[0]) + 1]; };
+      EXPECT_NEAR(top(1) - top(0), (1.0 - b_bar) * kWater * 3.0 * 8.0 / M, 1e-11);
+      EXPECT_NEAR(top(2) - top(0), (1.0 - b_bar) * kWater * 4.0 * 8.0 / M, 1e-11);
+      Activity activity(*run.model);
+      const PorePressure water(*run.model, 1, activity.group, activity.dof_map, nullptr);
+      for (const double x : {0.0, 0.5, 1.0})
+        for (const double y : {0.0, 3.0, 8.0})
+          EXPECT_NEAR(water.at(0, 0, {x, y}, {}), kWater * (12.0 - y - b_bar * 3.0), 1e-12);
+    }
+}
+
+// Undrained, the water takes its part of the change of total stress: K_w / n beside M.
+TEST(Water, RapidDrawdownOfAnUndrainedColumn) {
+  Block block = cells(1, 4, Cell::quad8);
+  block.place = rectangle(0.0, 1.0, 0.0, 8.0);
+  const double M = 1e4 * 0.7 / (1.3 * 0.4), bulk = 3e4;
+  DeckWriter deck = slope(block, 1, 20.0);
+  deck.water(1, 0, 1, 0, {0.0, 12.0});
+  deck.water(5, 1, 2, 0, {}, bulk);
+  deck.water(8, 1, 2, 0, {0.0, 9.0});
+  deck.stage();
+  const WholeRun run = bench().run(deck.text());
+  ASSERT_EQ(run.increments.size(), 2U);
+  const auto top = [&](std::size_t k) { return run.increments[k].u[2 * run.index(block.top()[0]) + 1]; };
+  EXPECT_NEAR(top(1) - top(0), kWater * 3.0 * 8.0 / (M + bulk), 1e-11);
+}
+
+// With B-bar = 1 the pressure below what falls dry is that of a phreatic line on the slope, and elsewhere that of the new level.
+TEST(Water, RapidDrawdownLeavesALineOnTheSlope) {
+  for (const Cell cell : {Cell::quad4, Cell::quad8, Cell::tri6}) {
+    const Block block = sloping(cell);
+    const auto fallen = [&](int kind, const std::vector<double>& line) {
+      DeckWriter deck = slope(block, 1, 20.0);
+      deck.water(1, 0, 1, 0, {0.0, 5.0});
+      deck.water(kind, 0, 2, 0, line);
+      deck.stage();
+      return bench().run(deck.text());
+    };
+    const WholeRun drawdown = fallen(8, {0.0, 3.0}), line = fallen(1, {1.0, 4.0, 4.0, 3.0, 7.0, 3.0});
+    ASSERT_TRUE(drawdown.completed() && line.completed());
+    EXPECT_LT(difference(drawdown, line), 1e-11);  // the ground is looked up 1e-12 inside an element
+  }
+}
+
 // What is dug out under water leaves an edge on which water stands.
 TEST(Water, ExcavationUnderWater) {
   Block low = cells(4, 2, Cell::quad8), high = cells(2, 2, Cell::quad8);
@@ -754,31 +815,35 @@ TEST(Water, AThinCasingHasNoFalseMoments) {
   }
 }
 
-// Ground under 4 of water, a slab on it that its card of water loads, or does not: u is more than what lies above, unless
-// the slab weighs enough.
+// Ground under 4 of water, 2 wide and 6 high, on it a slab of half a metre that a pressure and its card of water load, or not.
+Model slab_on_ground(int geometry, double slab_weight, double water_on_slab, double pressure) {
+  Block block;
+  block.columns = 2;
+  block.rows = 4;
+  block.cell = Cell::quad4;
+  block.place = rectangle(0.0, 2.0, -10.0, -4.0);
+  DeckWriter deck(geometry);
+  block.write_nodes(deck);
+  deck.material(1, 1, {2e4, 0.3}, 19.0);
+  deck.material(2, kPlateLaw, {1e7, 0.2, 0.5, 1.0}, slab_weight);
+  deck.group(1, 1, 0, 1);
+  deck.group(2, 35, 0, 2);
+  block.write_elements(deck, 1);
+  add_wall(deck, 2, block.top(), 1, 101);
+  for (const int node : block.bottom()) deck.fix(node, 1, 1);
+  StageCards& stage = deck.stage();
+  stage.gravity_y = -1.0;
+  if (pressure != 0.0)
+    for (const int element : {101, 102}) stage.pressure(element, 1, -pressure, -pressure);
+  deck.water(1, 1, 1, 0, {0.0, 0.0});
+  if (water_on_slab > 0.0) deck.water(1, 2, 1, 0, {0.0, water_on_slab - 4.0}, 1.0);
+  return bench().build(deck.text());
+}
+
+// u is more than what lies above, unless the slab weighs enough.
 TEST(Water, UpliftOfGroundBelowAStructure) {
   const auto uplift = [](double slab_weight, double water_on_slab, double pressure) {
-    Block block;
-    block.columns = 2;
-    block.rows = 4;
-    block.cell = Cell::quad4;
-    block.place = rectangle(0.0, 2.0, -10.0, -4.0);
-    DeckWriter deck(1);
-    block.write_nodes(deck);
-    deck.material(1, 1, {2e4, 0.3}, 19.0);
-    deck.material(2, kPlateLaw, {1e7, 0.2, 0.5, 1.0}, slab_weight);
-    deck.group(1, 1, 0, 1);
-    deck.group(2, 35, 0, 2);
-    block.write_elements(deck, 1);
-    add_wall(deck, 2, block.top(), 1, 101);
-    for (const int node : block.bottom()) deck.fix(node, 1, 1);
-    StageCards& stage = deck.stage();
-    stage.gravity_y = -1.0;
-    if (pressure != 0.0)
-      for (const int element : {101, 102}) stage.pressure(element, 1, -pressure, -pressure);
-    deck.water(1, 1, 1, 0, {0.0, 0.0});
-    if (water_on_slab > 0.0) deck.water(1, 2, 1, 0, {0.0, water_on_slab - 4.0}, 1.0);
-    const Model model = bench().build(deck.text());
+    const Model model = slab_on_ground(1, slab_weight, water_on_slab, pressure);
     std::string words;
     for (const Diagnostic& d : model.diagnostics.list())
       if (to_string(d.code) == "S340") words += d.message;
@@ -792,6 +857,24 @@ TEST(Water, UpliftOfGroundBelowAStructure) {
   EXPECT_NE(uplift(0.0, 0.0, 0.99 * wanted), "");
   EXPECT_EQ(uplift(0.0, 0.0, 1.01 * wanted), "") << "loads on the slab count";
   EXPECT_EQ(uplift(0.0, 4.0, 0.0), "") << "free water on it up to the same level";
+}
+
+// W of the report, by hand: 19 x 6 of soil, and the slab's half metre with its pressure and 3 of water, in place of the 4 of
+// water that would stand without it.  U = 10 gamma_w.
+TEST(Water, UpliftReportCountsSlabs) {
+  for (const int geometry : {1, 2}) {
+    const Model model = slab_on_ground(geometry, 24.0, 3.0, 5.0);
+    Activity activity(model);
+    activity.enter(model.stages[0]);
+    const Eigen::VectorXd unknowns = Eigen::VectorXd::Zero(activity.dof_map.dofs());
+    std::vector<int> base;
+    for (int node = 0; node < model.mesh.nodes(); ++node)
+      if (model.mesh.x(1, node) == -10.0) base.push_back(node);
+    const Uplift found = uplift_on(model, 0, base, activity, unknowns);
+    const double area = geometry == 1 ? 2.0 : 4.0 * std::numbers::pi;
+    EXPECT_NEAR(found.weight, area * (19.0 * 6.0 + 12.0 + 5.0 + 3.0 * kWater), 1e-11 * area * 200.0);
+    EXPECT_NEAR(found.water, area * 10.0 * kWater, 1e-11 * area * 200.0);
+  }
 }
 
 // A closed pipe under water is lifted by the weight of the water that it keeps out.
@@ -1388,7 +1471,18 @@ TEST(Water, WhatContradictsIsNamed) {
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 2, {}, 0.5); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(4, 0, 2, 0, {}); }), "S248");
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(5, 0, 1, 0, {}, 1e5, 0.4); }), "S248");
-  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(8, 0, 1, 0, {}); }), "S210");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(9, 0, 1, 0, {}); }), "S210");
+  EXPECT_EQ(code_of([](DeckWriter& d) { d.water(8, 0, 2, 0, {0.0, 3.0}); }), "S248") << "no line to fall from";
+  const auto code_of_drawdown = [&](int action, double b_bar, int action_before) {
+    return code_of([&](DeckWriter& d) {
+      d.water(1, 0, 1, action_before, {0.0, 5.0});
+      d.water(8, 0, 2, action, {0.0, 3.0}, b_bar);
+    });
+  };
+  EXPECT_EQ(code_of_drawdown(0, 0.98, 0), "none");
+  EXPECT_EQ(code_of_drawdown(0, 1.5, 0), "S248") << "B-bar";
+  EXPECT_EQ(code_of_drawdown(1, 0.9, 0), "S248") << "action";
+  EXPECT_EQ(code_of_drawdown(0, 0.9, 2), "S248") << "action of the line before";
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {0.3}, 0.2); }), "S248")
       << "values that no one reads";
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {}, 0.0, 0.3); }), "S248")

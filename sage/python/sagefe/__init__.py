@@ -23,6 +23,7 @@ from ._models import (
     ReportOf,
     Stage,
     Support,
+    Tie,
     build,
     read,
 )
@@ -53,6 +54,7 @@ __all__ = [
     "Stage",
     "State",
     "Support",
+    "Tie",
     "__version__",
     "add_law",
     "build",

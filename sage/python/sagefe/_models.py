@@ -64,6 +64,15 @@ class Support:
         self.angle = float(angle)
 
 
+class Tie:
+    """In every stage the nodes move as node ``to`` does, in x, y or both; or, with ``to_step``, each as the next one."""
+
+    def __init__(self, nodes: ArrayLike, to: int, *, x: bool = True, y: bool = True, to_step: int = 0) -> None:
+        self.nodes = _whole(nodes)
+        self.to, self.to_step = int(to), int(to_step)
+        self.x, self.y = bool(x), bool(y)
+
+
 class Load:
     """Forces on each of the nodes, added over the stage."""
 
@@ -152,6 +161,7 @@ class ModelInput:
     solver: str = ""
     name: str = "model"
     title: str = ""
+    ties: Sequence[Tie] = ()
 
 
 def _finish(result: Result, strict: bool) -> Result:
