@@ -19,10 +19,10 @@ void Equations::number(const Model& model, const Activity& activity) {
     const int dof = DofMap::displacement(node.node);
     if (node.slides) take({{{dof, node.slide[0]}, {dof + 1, node.slide[1]}}});
   }
-  for (const std::vector<int>& set : activity.tied) {
-    if (activity.held[set.front()]) continue;
+  for (const std::vector<TiedDof>& set : activity.tied) {
+    if (std::ranges::any_of(set, &TiedDof::supported)) continue;
     Combination tied;
-    for (const int dof : set) tied.terms.push_back({dof, 1.0});
+    for (const TiedDof& one : set) tied.terms.push_back({one.dof, 1.0});
     take(std::move(tied));
   }
   std::vector<int> dofs;

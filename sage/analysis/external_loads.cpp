@@ -166,11 +166,11 @@ void add_turned_rate(const Stage& stage, const Activity& activity, Eigen::Vector
     const Vector2 by_xy = rate.segment<2>(dof);
     rate.segment<2>(dof) = held_motion(stage, node, by_xy);
   }
-  for (const std::vector<int>& set : activity.tied) {
-    const auto moved = std::ranges::find_if(set, [&](int dof) { return rate[dof] != 0.0; });
-    if (moved == set.end()) continue;
-    const double value = rate[*moved];
-    for (const int dof : set) rate[dof] = value;
+  for (const std::vector<TiedDof>& set : activity.tied) {
+    const auto own = std::ranges::find_if(set, &TiedDof::supported);
+    if (own == set.end()) continue;
+    const double value = rate[own->dof];
+    for (const TiedDof& one : set) rate[one.dof] = value;
   }
 }
 

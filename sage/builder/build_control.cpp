@@ -7,6 +7,7 @@
 
 #include "sage/builder/builder.hpp"
 #include "sage/messages/parse_number.hpp"
+#include "sage/model/activity.hpp"
 
 namespace sage::builder {
 
@@ -18,6 +19,17 @@ bool has_load(const Stage& stage) {
   return !stage.loads.empty() || !stage.pressures.empty() || !stage.births.empty() || !stage.deaths.empty() ||
          !stage.gravity.isZero(0.0) || std::ranges::any_of(stage.fixities, releases) ||
          std::ranges::any_of(stage.turned_fixities, releases);
+}
+
+bool are_tied(const Builder& b, const LoadControl& control) {
+  if (control.other < 0) return false;
+  const int one = DofMap::displacement(control.node, control.component);
+  const int other = DofMap::displacement(control.other, control.component);
+  const Activity activity(b.model);
+  return std::ranges::any_of(activity.tied, [&](const std::vector<TiedDof>& set) {
+    const auto has = [&](int dof) { return std::ranges::find(set, dof, &TiedDof::dof) != set.end(); };
+    return has(one) && has(other);
+  });
 }
 
 // Why the stage cannot be controlled; empty = it can.
@@ -74,7 +86,8 @@ void read_control(Builder& b, const CardView& card, Stage& stage) {
 void check_controls(Builder& b) {
   for (const Stage& stage : b.model.stages) {
     if (!stage.is_controlled()) continue;
-    const std::string reason = refusal(b, stage);
+    const std::string reason =
+        are_tied(b, stage.control) ? "its two displacements are tied to each other" : refusal(b, stage);
     if (!reason.empty()) b.error("S581", stage.where, "load_control: " + reason);
   }
 }

@@ -197,8 +197,11 @@ void read_turned_fixity(Builder& b, const CardView& card, int field, Fixity fixi
 // Code 3 in x, y or both: the nodes move as others do.
 constexpr int kTied = 3;
 
+// Only where the layout has the field: elsewhere the code is unknown.
 bool ties(const CardView& card) {
-  return card.integer("x_code") == kTied || card.integer("y_code") == kTied || !card.blank("tie");
+  const bool can = std::ranges::find(card.spec().fields, "tie", &FieldSpec::name) != card.spec().fields.end();
+  return can && (card.integer("x_code") == kTied || card.integer("y_code") == kTied || !card.blank("tie") ||
+                 !card.blank("tie_step"));
 }
 
 void read_tie(Builder& b, const CardView& card, bool in_stage) {

@@ -104,9 +104,9 @@ void read_heads(Builder& b, const CardView& card, const WaterCard& water) {
 void read_drawdown(Builder& b, const CardView& card, WaterCard& water) {
   require_unit_weight(b, card);
   read_line(b, card, water);
-  if (water.value == 0.0) water.value = 1.0;
+  if (card.blank("value1")) water.value = 1.0;
   if (!(water.value > 0.0 && water.value <= 1.0))
-    b.error("S248", card.where("value1"), "B-bar of a rapid drawdown lies between 0 and 1; blank or 0 is 1");
+    b.error("S248", card.where("value1"), "B-bar of a rapid drawdown is above 0 and at most 1; blank is 1");
   if (water.action != WaterAction::edges)
     b.error("S248", card.where("action"), "a rapid drawdown needs water at free edges (action 0)");
 }
@@ -417,6 +417,35 @@ void take_heads(Builder& b, const StoredHeads& stored) {
               rounded_text(model.mesh.x(0, first), 6) + ", " + rounded_text(model.mesh.x(1, first), 6) + ")");
 }
 
+// Of one group; true after an error.
+bool check_drawdown(Builder& b, const WaterCard& card, int group) {
+  const std::string name = "group " + std::to_string(b.model.groups[group].number);
+  const auto fail = [&](const SourcePosition& where, const std::string& text) {
+    b.error("S248", where, name + text);
+    return true;
+  };
+  const WaterCard* const before = line_before(b.model, card, group);
+  if (before == nullptr || before->action != WaterAction::edges)
+    return fail(card.where, " has no phreatic line with action 0 before stage " +
+                                std::to_string(card.stage + 1) + " from which a rapid drawdown could begin");
+  if (b.model.groups[group].second_material >= 0)
+    return fail(
+        card.where,
+        " solves for its pore pressure, which a rapid drawdown can't give; lower its line (kind 1) in a "
+        "stage with pore_water 1");
+  if (!is_undrained(b.model, card.stage, group)) return false;
+  for (const WaterCard& open : b.model.water) {
+    const bool opens =
+        open.kind == WaterKind::drained && open.stage > card.stage && (open.group < 0 || open.group == group);
+    if (opens && water_card(b.model, open.stage, group) == &card)
+      return fail(
+          open.where,
+          " is drained with the pressures from before the drawdown: give it a phreatic line from stage " +
+              std::to_string(open.stage + 1) + " on");
+  }
+  return false;
+}
+
 // Each needs a phreatic line with water at free edges to fall from.
 void check_drawdowns(Builder& b) {
   for (const WaterCard& card : b.model.water) {
@@ -424,13 +453,7 @@ void check_drawdowns(Builder& b) {
     for (std::size_t g = 0; g < b.model.groups.size(); ++g) {
       const bool own = card.group < 0 || card.group == static_cast<int>(g);
       if (!own || !b.model.groups[g].solid()) continue;
-      const WaterCard* const before = line_before(b.model, card, static_cast<int>(g));
-      if (before != nullptr && before->action == WaterAction::edges) continue;
-      b.error("S248", card.where,
-              "group " + std::to_string(b.model.groups[g].number) +
-                  " has no phreatic line with action 0 before stage " + std::to_string(card.stage + 1) +
-                  " from which a rapid drawdown could begin");
-      break;
+      if (check_drawdown(b, card, static_cast<int>(g))) break;
     }
   }
 }

@@ -112,12 +112,10 @@ void check_tied_values(Builder& b, const Stage& stage, const Activity& activity)
     for (std::size_t c = 0; c < 2; ++c)
       if (f.code[c] == FixityCode::fixed && f.value[c] != 0.0)
         moved[DofMap::displacement(f.node, static_cast<int>(c))] = {f.value[c], &f.history, f.line};
-  std::size_t dof_of_ties = 0;
-  for (const std::vector<int>& set : activity.tied) {
+  for (const std::vector<TiedDof>& set : activity.tied) {
     std::vector<std::pair<int, Moved>> supports;
-    for (const int dof : set)
-      if (activity.own_support[dof_of_ties++] != 0)
-        supports.emplace_back(dof, moved.contains(dof) ? moved.at(dof) : Moved());
+    for (const TiedDof& one : set)
+      if (one.supported) supports.emplace_back(one.dof, moved.contains(one.dof) ? moved.at(one.dof) : Moved());
     const auto differs = [&](const std::pair<int, Moved>& one) {
       const Moved &a = supports.front().second, &z = one.second;
       return a.value != z.value || (a.value != 0.0 && *a.history != *z.history);

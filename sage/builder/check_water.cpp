@@ -149,6 +149,26 @@ void warn_of_uplift(Builder& b, const Activity& activity, const PorePressure& wa
                 std::to_string(worst_element) + ", by " + rounded_text(worst, 4) + " " + model.units.stress);
 }
 
+// Free water that a rapid drawdown would raise.
+void refuse_rising_water(Builder& b, const std::vector<FreeEdge>& free, const PorePressure& water) {
+  for (const FreeEdge& edge : free) {
+    const WaterCard* const own = water.card(static_cast<std::size_t>(edge.group));
+    if (own == nullptr || own->kind != WaterKind::drawdown || own->stage != water.stage()) continue;
+    const WaterCard* const before = line_before(b.model, *own, edge.group);
+    const Group& group = b.model.groups[edge.group];
+    for (const int i : group.element->edges()[edge.edge]) {
+      const Vector2 x = b.model.mesh.x.col(group.nodes_of(edge.element)[i]);
+      const double level = water_level(*own, x.x());
+      if (level <= std::max(x.y(), water_level(*before, x.x())) + b.model.mesh.reach) continue;
+      b.error("S248", own->where,
+              "at x = " + rounded_text(x.x()) + " the level " + rounded_text(level) +
+                  " after the drawdown lies above the one before, " +
+                  rounded_text(water_level(*before, x.x())));
+      return;
+    }
+  }
+}
+
 // Ends of free edges that water stands at, by their places: walls in joints have nodes of their own there.
 struct WetEnd {
   Vector2 other = Vector2::Zero();  // the edge's other end
@@ -361,6 +381,7 @@ void check_pressures(Builder& b) {
     const PorePressure water(b.model, static_cast<int>(s), activity.group, activity.dof_map, nullptr);
     if (!water.any()) continue;
     const std::vector<FreeEdge> free = free_edges(b.model, activity.group);
+    refuse_rising_water(b, free, water);
     warn_of_open_edges(b, activity, free, water, stage);
     warn_of_uplift(b, activity, water, stage, gravity);
     warn_of_level_jumps(b, activity, water, stage, jumps);

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include "sage/messages/error.hpp"
+#include "sage/model/joined.hpp"
 
 namespace sage::mesh {
 
@@ -275,46 +277,81 @@ struct MadeBetween {
   double share;
 };
 
-// A made node between two tied ones is tied as they are: to the node of both, or to the made node at the same place between
-// their partners.
-void inherit_ties(Model& model, const std::vector<CutEdge>& edges) {
-  if (model.ties.empty()) return;
+std::vector<MadeBetween> made_between(const std::vector<CutEdge>& edges) {
   std::vector<MadeBetween> all;
-  std::map<std::pair<int, int>, std::vector<std::size_t>> between;
   for (const CutEdge& edge : edges)
     for (const OnEdge& made : edge.made) {
       const std::size_t behind = edge.behind(made);
       const OnEdge &a = edge.known[behind - 1], &z = edge.known[behind];
-      between[std::minmax(a.node, z.node)].push_back(all.size());
       all.push_back({a.node, z.node, made.node, (made.at - a.at) / (z.at - a.at)});
     }
-  const std::vector<Tie> given = model.ties;
-  std::map<int, std::vector<const Tie*>> of_node;
-  for (const Tie& tie : given) of_node[tie.node].push_back(&tie);
-  const auto add = [&](const MadeBetween& made, int to, const Tie& one, const Tie& other) {
-    Tie tie{made.node, to, {}, one.line};
-    for (std::size_t c = 0; c < 2; ++c) tie.component[c] = one.component[c] && other.component[c];
-    if (tie.node != tie.to && (tie.component[0] || tie.component[1])) model.ties.push_back(tie);
-  };
-  for (const MadeBetween& made : all) {
-    if (const auto before = of_node.find(made.before), after = of_node.find(made.after);
-        before != of_node.end() && after != of_node.end())
-      for (const Tie* one : before->second)
-        for (const Tie* other : after->second) {
-          if (one->to == other->to) add(made, one->to, *one, *other);
-          const auto partners = between.find(std::minmax(one->to, other->to));
-          if (partners == between.end()) continue;
-          for (const std::size_t i : partners->second) {
-            const double share = all[i].before == one->to ? all[i].share : 1.0 - all[i].share;
-            if (std::abs(share - made.share) < 1e-9) add(made, all[i].node, *one, *other);
-          }
-        }
-    // Between a node and one that is tied to it.
-    for (const auto& [from, to] : {std::pair(made.before, made.after), {made.after, made.before}})
-      if (const auto tied = of_node.find(from); tied != of_node.end())
-        for (const Tie* tie : tied->second)
-          if (tie->to == to) add(made, to, *tie, *tie);
+  return all;
+}
+
+// Nodes that ties join in one component.
+class TiedNodes {
+ public:
+  TiedNodes(const Model& model, std::size_t component)
+      : mesh_(model.mesh), joined_(static_cast<std::size_t>(model.mesh.nodes())) {
+    for (const Tie& tie : model.ties)
+      if (tie.component[component]) joined_.join(tie.node, tie.to);
+    for (const Tie& tie : model.ties)
+      if (tie.component[component])
+        for (const int node : {tie.node, tie.to}) nodes_[of(node)].insert(node);
   }
+
+  int of(int node) { return joined_.set_of(node); }
+  bool is_tied(int node) { return nodes_.contains(of(node)); }
+  // More than two on a line: what is rigid.  Two nodes, and the corners of a body that repeats, may be opposite to each other.
+  bool is_cap(int set) const {
+    const std::vector<int> nodes(nodes_.at(set).begin(), nodes_.at(set).end());
+    const Vector2 first = mesh_.x.col(nodes[0]), along = Vector2(mesh_.x.col(nodes[1])) - first;
+    return nodes.size() > 2 && std::ranges::all_of(nodes, [&](int node) {
+             const Vector2 from = Vector2(mesh_.x.col(node)) - first;
+             return std::abs(along.x() * from.y() - along.y() * from.x()) <= 1e-6 * along.norm() * from.norm();
+           });
+  }
+
+ private:
+  const Mesh& mesh_;
+  Joined joined_;
+  std::map<int, std::set<int>> nodes_;
+};
+
+// A made node within a rigid cap is tied to it.  Others between tied nodes are tied to those at the same place between nodes
+// that are tied to these, as on the opposite side of a body that repeats.
+void inherit_ties(Model& model, const std::vector<CutEdge>& edges) {
+  if (model.ties.empty()) return;
+  const std::vector<MadeBetween> all = made_between(edges);
+  std::vector<Tie> ties;
+  const MadeBetween* unclear = nullptr;
+  for (std::size_t c = 0; c < 2; ++c) {
+    TiedNodes tied(model, c);
+    std::map<std::tuple<int, int, long>, int> first;  // by the sets of both ends and the share between them
+    const auto add = [&](int node, int to) {
+      ties.push_back({node, to, {c == 0, c == 1}, model.ties.front().line});
+    };
+    for (const MadeBetween& made : all) {
+      if (!tied.is_tied(made.before) || !tied.is_tied(made.after)) continue;
+      const int a = tied.of(made.before), z = tied.of(made.after);
+      if (a == z && tied.is_cap(a))
+        add(made.node, made.before);
+      else if (a == z || (tied.is_cap(a) && tied.is_cap(z)))
+        unclear = &made;
+      else {
+        const double share = a < z ? made.share : 1.0 - made.share;
+        const auto [at, is_first] =
+            first.try_emplace({std::min(a, z), std::max(a, z), std::lround(1e6 * share)}, made.node);
+        if (!is_first) add(made.node, at->second);
+      }
+    }
+  }
+  if (unclear != nullptr)
+    model.diagnostics.warning(
+        "S371", {model.file, model.ties.front().line, 0, 0},
+        "the new node between nodes " + std::to_string(model.mesh.number[unclear->before]) + " and " +
+            std::to_string(model.mesh.number[unclear->after]) + " is not tied, although these two are");
+  model.ties.insert(model.ties.end(), ties.begin(), ties.end());
 }
 
 void inherit_field(Model& model, int field, const std::vector<CutEdge>& edges) {

@@ -181,6 +181,11 @@ void refine_as_asked(Work& b) {
   const bool changes =
       options.coarsen || options.refine > 0 || !options.gradings.empty() || options.refine_graded > 0;
   if (changes && refuse_contact(b)) return;
+  if (!b.model.ties.empty() && !options.gradings.empty()) {
+    b.error("S369", b.at_line(b.model.ties.front().line),
+            "--grade can't divide the elements of a model with ties; --refine can");
+    return;
+  }
   const bool coarser = options.coarsen && coarsen(b);
   if (!options.coarsen && options.refine <= 0 && options.gradings.empty() && options.refine_graded <= 0) return;
   if (has_unusable_shapes(b.model)) return;

@@ -791,7 +791,7 @@ constexpr MessageEntry kMessages[] = {
      "stage belong to no displacement.",
      "Hold the node in one or two directions, or correct the values of the displacements."},
     {"S369", "supports at an angle or ties are not possible here",
-     "Bounds by limit analysis and --coarsen know supports along x and y alone.",
+     "Bounds by limit analysis and --coarsen know supports along x and y alone. --grade does not keep ties.",
      "Run the model with sagefe run or sagefe safety, or turn its axes so that all supports are along x and "
      "y."},
     {"S370", "a tie can't be so",
@@ -799,6 +799,13 @@ constexpr MessageEntry kMessages[] = {
      "have "
      "a support at an angle.",
      "Give the card of the tie the code 3 in x, y or both and the number of the other node, and nothing else."},
+
+    {"S371", "a new node between tied nodes is not tied",
+     "The two ends of an edge are tied to each other. Such an edge is a part of a rigid cap, or it goes across "
+     "a "
+     "body whose sides repeat. sagefe takes more than two tied nodes on a straight line for a cap, and nothing "
+     "else. New nodes of an edge between two caps are not tied either.",
+     "Tie at least three nodes of a cap, or use at least two elements between sides that repeat."},
 
     // S4: refining, grading and mid-side nodes.
     {"S401", "elements of different degree meet",

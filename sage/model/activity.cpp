@@ -63,9 +63,8 @@ void Activity::enter(const Stage& stage) {
   for (int g : stage.births) group[g] = 1;
   for (int g : stage.deaths) group[g] = 0;
   for (const auto& [dof, supported] : pores) held[dof] = supported;
-  std::size_t tied_dof = 0;
-  for (const std::vector<int>& set : tied)
-    for (const int dof : set) held[dof] = own_support[tied_dof++];
+  for (const std::vector<TiedDof>& set : tied)
+    for (const TiedDof& one : set) held[one.dof] = one.held ? 1 : 0;
   for (const TurnedNode& node : turned)
     for (int c = 0; c < 2; ++c)
       held[DofMap::displacement(node.node, c)] = node.by_xy[static_cast<std::size_t>(c)];
@@ -135,23 +134,39 @@ void Activity::collect_tied(const Model& model) {
     for (int c = 0; c < 2; ++c)
       if (tie.component[static_cast<std::size_t>(c)])
         joined.join(DofMap::displacement(tie.node, c), DofMap::displacement(tie.to, c));
-  std::map<int, std::vector<int>> sets;
-  for (int dof = 0; dof < dof_map.displacements(); ++dof) sets[joined.set_of(dof)].push_back(dof);
+  std::map<int, std::vector<TiedDof>> sets;
+  for (int dof = 0; dof < dof_map.displacements(); ++dof)
+    sets[joined.set_of(dof)].push_back({dof, {}, false, false});
   in_tie_.assign(held.size(), 0);
+  std::map<int, std::pair<std::size_t, std::size_t>> place;  // of a dof: its set, and where in it
   for (auto& [first, dofs] : sets) {
     if (dofs.size() < 2) continue;
-    for (const int dof : dofs) in_tie_[dof] = 1;
+    for (std::size_t i = 0; i < dofs.size(); ++i) {
+      in_tie_[dofs[i].dof] = 1;
+      place[dofs[i].dof] = {tied.size(), i};
+    }
     tied.push_back(std::move(dofs));
   }
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    for (const int node : model.groups[g].nodes)
+      for (int c = 0; c < 2; ++c)
+        if (const auto at = place.find(DofMap::displacement(node, c)); at != place.end())
+          tied[at->second.first][at->second.second].groups.push_back(static_cast<int>(g));
 }
 
-// A support of one of them holds all.
+// A support of one of them holds all whose nodes are in active groups.
 void Activity::settle_tied() {
-  own_support.clear();
-  for (const std::vector<int>& set : tied) {
-    for (const int dof : set) own_support.push_back(held[dof]);
-    const bool any = std::ranges::any_of(set, [&](int dof) { return held[dof] != 0; });
-    for (const int dof : set) held[dof] = any ? 1 : 0;
+  const auto active = [&](const TiedDof& one) {
+    return std::ranges::any_of(one.groups, [&](int g) { return group[g] != 0; });
+  };
+  for (std::vector<TiedDof>& set : tied) {
+    for (TiedDof& one : set) {
+      one.held = held[one.dof] != 0;
+      one.supported = one.held && active(one);
+    }
+    const bool any = std::ranges::any_of(set, &TiedDof::supported);
+    for (const TiedDof& one : set)
+      if (active(one)) held[one.dof] = any ? 1 : 0;
   }
 }
 

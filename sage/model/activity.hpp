@@ -32,6 +32,14 @@ struct TurnedNode {
   bool operator==(const TurnedNode&) const = default;
 };
 
+// A displacement that ties join to others.
+struct TiedDof {
+  int dof = 0;
+  std::vector<int> groups;  // with its node
+  bool held = false;        // by its supports alone
+  bool supported = false;   // held so, and an active group has the node
+};
+
 struct Activity {
   explicit Activity(const Model& model);
   // Births, deaths and fixities of a stage, on top of those before it.
@@ -52,10 +60,7 @@ struct Activity {
   // Excess pressures of pore water, one entry each: whether supports hold it, while the stage may keep or free them all.
   std::vector<std::pair<int, char>> pores;  // dof and flag
   std::vector<TurnedNode> turned;           // by rising node
-  // Displacements that are equal: sets of dofs that ties join, each by rising number.
-  std::vector<std::vector<int>> tied;
-  std::vector<char>
-      own_support;  // of each dof of `tied`, one set after the other: a support of its own holds it
+  std::vector<std::vector<TiedDof>> tied;   // sets of equal displacements, each by rising dof
 
  private:
   void collect_turned(const Model& model);

@@ -91,15 +91,13 @@ PorePressure::PorePressure(const Model& model, int stage, const std::vector<char
     const WaterCard* const card = water_card(model, stage, static_cast<int>(g));
     if (card == nullptr || (card->kind == WaterKind::heads && unknowns == nullptr)) continue;
     if (card->kind == WaterKind::drawdown) {
-      const int group = static_cast<int>(g);
-      falls_[g] = {line_before(model, *card, group),
-                   is_undrained(model, card->stage, group) ? 0.0 : card->value};
+      falls_[g] = fall_of(*card, static_cast<int>(g));
       if (falls_[g].before == nullptr) continue;  // the deck has an error
     }
     cards_[g] = card;
     if (card->kind == WaterKind::nodes) take_nodes(*card, g);
     if (card->kind == WaterKind::heads) take_heads(g, map, unknowns);
-    if ((card->kind == WaterKind::ratio || card->kind == WaterKind::drawdown) && overburden_ == nullptr)
+    if (card->kind == WaterKind::ratio && overburden_ == nullptr)
       overburden_ = std::make_shared<const Overburden>(model, groups, stage);
   }
 }
@@ -142,6 +140,19 @@ void PorePressure::fill_middles(std::size_t group) {
     if (std::isnan(value)) value = 0.0;
 }
 
+PorePressure::Fall PorePressure::fall_of(const WaterCard& card, int group) const {
+  Fall fall{line_before(*model_, card, group), nullptr,
+            is_undrained(*model_, card.stage, group) ? 0.0 : card.value};
+  if (fall.before == nullptr) return fall;
+  for (std::size_t g = 0; g < falls_.size(); ++g)
+    if (falls_[g].ground != nullptr && cards_[g]->stage == card.stage) fall.ground = falls_[g].ground;
+  if (fall.ground != nullptr) return fall;
+  Activity before(*model_);
+  for (int s = 0; s < card.stage; ++s) before.enter(model_->stages[s]);
+  fall.ground = std::make_shared<const Overburden>(*model_, before.group, card.stage - 1);
+  return fall;
+}
+
 double PorePressure::nodal(std::size_t group, int element, std::span<const double> N) const {
   const int* const nodes = model_->groups[group].nodes_of(element);
   double u = 0.0;
@@ -159,10 +170,11 @@ double PorePressure::drawn_down(std::size_t group, int element, const Vector2& p
   const WaterCard &now = *cards_[group], &before = *falls_[group].before;
   // A little inside the element: on a vertical side the ground of the element counts, not that behind the side.
   const std::vector<Vector2> corners = corners_of(*model_, model_->groups[group], element);
-  const double inward = corners[0].x() + corners[2].x() - 2.0 * place.x();
+  double inward = 0.0;
+  for (const Vector2& corner : corners) inward += corner.x() - place.x();
   const Vector2 inside(place.x() + std::copysign(1e-12 * (std::abs(place.x()) + std::abs(inward)), inward),
                        place.y());
-  const double ground = overburden_->above(inside).top;
+  const double ground = falls_[group].ground->above(inside).top;
   const auto depth_of_water = [&](const WaterCard& line) {
     return std::max(0.0, water_level(line, place.x()) - ground);
   };

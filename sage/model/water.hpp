@@ -51,6 +51,14 @@ class PorePressure {
   double at_point(std::size_t group, int element, int point) const;
 
  private:
+  // Of a drawdown: the line from before, the ground at its end, and the share of the fall that the pressure follows.
+  struct Fall {
+    const WaterCard* before = nullptr;
+    std::shared_ptr<const class Overburden> ground;
+    double share = 0.0;
+  };
+
+  Fall fall_of(const WaterCard& card, int group) const;
   double nodal(std::size_t group, int element, std::span<const double> N) const;
   double below(const WaterCard& line, const Vector2& place) const;
   double drawn_down(std::size_t group, int element, const Vector2& place) const;
@@ -62,12 +70,7 @@ class PorePressure {
   int stage_;
   std::vector<char> groups_;
   std::vector<const WaterCard*> cards_;
-  // By group: of drawdowns, the line from before and the share of the fall that the pressure follows.
-  struct Fall {
-    const WaterCard* before = nullptr;
-    double share = 0.0;
-  };
-  std::vector<Fall> falls_;
+  std::vector<Fall> falls_;                 // by group
   bool beside_ = false;                     // free water stands on structures
   std::vector<std::vector<double>> nodes_;  // by group: u of every node of the mesh, of cards about nodes
   std::shared_ptr<const class Overburden> overburden_;

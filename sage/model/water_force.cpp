@@ -181,12 +181,19 @@ class WaterForce {
     const std::vector<int>& local = group.element->edges()[edge.edge];
     const int* const nodes = group.nodes_of(edge.element);
     const int a = nodes[local[0]], z = nodes[local[1]];
-    const Vector2 along = model_.mesh.x.col(z) - model_.mesh.x.col(a);
-    const auto holds = [&](int component) {
-      return std::abs(along[1 - component]) <= model_.mesh.reach ||
-             (activity_.holds(a, component) && activity_.holds(z, component));
-    };
-    return holds(0) && holds(1);
+    const Vector2 along = Vector2(model_.mesh.x.col(z) - model_.mesh.x.col(a)).normalized();
+    const Vector2 normal(-along.y(), along.x());
+    return is_held(a, normal) && is_held(z, normal);
+  }
+
+  // Along a unit vector.
+  bool is_held(int node, const Vector2& n) const {
+    constexpr double kParallel = 1e-6;
+    const TurnedNode* const turned = activity_.turned_at(node);
+    if (turned != nullptr && turned->slides)
+      return std::abs(turned->slide[0] * n.x() + turned->slide[1] * n.y()) < kParallel;
+    return (std::abs(n.x()) < kParallel || activity_.holds(node, 0)) &&
+           (std::abs(n.y()) < kParallel || activity_.holds(node, 1));
   }
 
   // -u n on the solid; what lies behind a joint gets the opposite unless it is wet itself.

@@ -36,12 +36,15 @@ void WeightAbove::add_structures(const Model& model, const std::vector<char>& gr
   }
 }
 
-// Nothing where no structure lies on the ground, which ends at the level `top`.
+// Nothing where no structure lies on the ground, which ends at the level `top`.  Half-open in x: between two plates one of them
+// counts.
 std::optional<double> WeightAbove::of_structures(const Vector2& place, double top) const {
   std::optional<double> sum;
   for (const Line& line : lines_) {
+    if (!(std::min(line.from.x(), line.to.x()) <= place.x() &&
+          place.x() < std::max(line.from.x(), line.to.x())))
+      continue;
     const double part = (place.x() - line.from.x()) / (line.to.x() - line.from.x());
-    if (part < 0.0 || part > 1.0) continue;
     const double level = line.from.y() + part * (line.to.y() - line.from.y());
     if (std::abs(level - top) <= reach_ + 1e-6 * (line.to - line.from).norm())
       sum = sum.value_or(0.0) + line.stress;

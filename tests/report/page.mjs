@@ -41,12 +41,13 @@ const browser = await launch(SOFTWARE_GL);
 const complaints = [];
 async function open(name, hash = "") {
   const page = await browser.newPage({viewport: {width: 1400, height: 900}});
+  page.setDefaultTimeout(0);  // no clock decides; ctest ends a page that never comes
   const url = pathToFileURL(path.join(work, "out", name)).href;
   page.on("console", (m) => { if (m.type() === "error") complaints.push(`${name}: ${m.text()}`); });
   page.on("pageerror", (e) => complaints.push(`${name}: ${e.message}`));
   page.on("request", (r) => { if (!/^(blob|data):/.test(r.url()) && r.url().split("#")[0] !== url) complaints.push(`${name}: request of ${r.url()}`); });
   await page.goto(url + hash);
-  await page.waitForFunction(() => window.sagefe, null, {timeout: 60000});
+  await page.waitForFunction(() => window.sagefe);
   return page;
 }
 const probe = (page, run = 0) => page.evaluate((i) => {

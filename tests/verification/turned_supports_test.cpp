@@ -412,6 +412,70 @@ TEST(Ties, ARigidCapSettlesEvenly) {
   }
 }
 
+// A table of time moves the tied nodes as it moves both of them without a tie, and a support of a node that is in no active
+// element holds none.
+TEST(Ties, FollowTablesOfTimeAndActiveGroups) {
+  const Patch patch{2, 2};
+  ModelInput input = patch.input([](double x, double y) { return Vector2(x, y); }, Geometry::plane_strain);
+  const std::vector<int> top = patch.row(4);
+  input.supports = {held(patch.row(0), true, true)};
+  StageInput stage{.increments = 4};
+  stage.duration = 2.0;
+  stage.supports = {held({top[1]}, false, true)};
+  stage.supports[0].y_value = -0.01;
+  stage.supports[0].history = {{0.0, 0.0}, {1.0, 1.0}, {2.0, 0.25}};
+  input.stages = {stage};
+  input.ties = {{.nodes = top, .to = top[0], .x = false}};
+  const WholeRun tied = complete(input);
+  input.ties.clear();
+  input.stages[0].supports[0].nodes = top;
+  const WholeRun all = complete(input);
+  ASSERT_EQ(tied.increments.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_LT((tied.increments[k].u - all.increments[k].u).lpNorm<Eigen::Infinity>(), 1e-14);
+
+  ModelInput born = patch.input([](double x, double y) { return Vector2(x, y); }, Geometry::plane_strain);
+  born.groups.push_back(born.groups[0]);
+  born.groups[0].elements = {born.groups[0].elements[0], born.groups[0].elements[1]};
+  born.groups[1].elements = {born.groups[1].elements[2], born.groups[1].elements[3]};
+  born.supports = {held(patch.row(0), true, true)};
+  born.ties = {{.nodes = patch.row(2), .to = top[0], .x = false}};
+  StageInput load, later;
+  load.loads = {{.nodes = {patch.node(2, 2)}, .y = -1.0}};
+  later.births = {2};
+  born.stages = {load, later};
+  const WholeRun without = complete(born);
+  born.supports.push_back(held({top[0]}, false, true));
+  const WholeRun with = complete(born);
+  const int node = DofMap::displacement(without.index(patch.node(2, 2)));
+  EXPECT_LT(without.increments[0].u[node + 1], -1e-5);
+  EXPECT_NEAR(with.increments[0].u[node + 1], without.increments[0].u[node + 1], 1e-15);
+}
+
+// Sides of one element each, tied in mixed directions, and all corners of a cell tied to one: the new nodes of opposite sides
+// move alike.  Two tied nodes alone are not a cap.
+TEST(Ties, NewNodesOfOppositeSidesAreTied) {
+  const Patch patch{1, 2};
+  ModelInput input = patch.input([](double x, double y) { return Vector2(x, y); }, Geometry::plane_strain);
+  input.supports = {held(patch.row(0), true, true)};
+  for (int j = 0; j <= 4; ++j) {
+    const int left = patch.node(0, j), right = patch.node(2, j);
+    input.ties.push_back(j % 2 == 0 ? TieInput{{left}, right} : TieInput{{right}, left});
+  }
+  input.stages = {{.loads = {{.nodes = {patch.node(1, 4)}, .y = -1.0}}}};
+  const WholeRun run = complete(input, refined(1));
+  const auto u_at = [&](const Vector2& place) {
+    for (int node = 0; node < run.model->mesh.nodes(); ++node)
+      if ((Vector2(run.model->mesh.x.col(node)) - place).norm() < 1e-9)
+        return Vector2(run.last().u.segment<2>(DofMap::displacement(node)));
+    ADD_FAILURE() << "no node there";
+    return Vector2(0.0, 0.0);
+  };
+  for (const double y : {0.125, 0.375, 0.5, 0.625, 0.875, 1.0})
+    EXPECT_LT((u_at({0.0, y}) - u_at({1.0, y})).norm(), 1e-15) << y;
+  EXPECT_GT(std::abs(u_at({0.5, 1.0}).y() - u_at({0.0, 1.0}).y()), 1e-5) << "the top is not rigid";
+}
+
 TEST(Ties, AreKeptInDecksAndRejectedByName) {
   const Patch patch{2, 2};
   ModelInput good = patch.input([](double x, double y) { return Vector2(x, y); }, Geometry::plane_strain);

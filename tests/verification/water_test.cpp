@@ -449,7 +449,7 @@ TEST(Water, RapidDrawdownOfAnUndrainedColumn) {
   DeckWriter deck = slope(block, 1, 20.0);
   deck.water(1, 0, 1, 0, {0.0, 12.0});
   deck.water(5, 1, 2, 0, {}, bulk);
-  deck.water(8, 1, 2, 0, {0.0, 9.0});
+  deck.water(8, 1, 2, 0, {0.0, 9.0}, 1.0);
   deck.stage();
   const WholeRun run = bench().run(deck.text());
   ASSERT_EQ(run.increments.size(), 2U);
@@ -464,7 +464,7 @@ TEST(Water, RapidDrawdownLeavesALineOnTheSlope) {
     const auto fallen = [&](int kind, const std::vector<double>& line) {
       DeckWriter deck = slope(block, 1, 20.0);
       deck.water(1, 0, 1, 0, {0.0, 5.0});
-      deck.water(kind, 0, 2, 0, line);
+      deck.water(kind, 0, 2, 0, line, kind == 8 ? 1.0 : 0.0);
       deck.stage();
       return bench().run(deck.text());
     };
@@ -472,6 +472,70 @@ TEST(Water, RapidDrawdownLeavesALineOnTheSlope) {
     ASSERT_TRUE(drawdown.completed() && line.completed());
     EXPECT_LT(difference(drawdown, line), 1e-11);  // the ground is looked up 1e-12 inside an element
   }
+}
+
+// Ground of 4 by 8 beside ground of 4 by 4, under water to 12 that falls to 5 with B-bar = 1/2: above the step the pressure
+// follows the fall above the higher ground, 4, whichever node its triangles begin with; below it the fall of 7.  Digging later
+// changes nothing.
+TEST(Water, RapidDrawdownAboveAStep) {
+  for (const int turn : {0, 1, 2}) {
+    DeckWriter deck(1);
+    const std::vector<Vector2> places{{0.0, 0.0}, {4.0, 0.0}, {8.0, 0.0}, {0.0, 4.0},
+                                      {4.0, 4.0}, {8.0, 4.0}, {0.0, 8.0}, {4.0, 8.0}};
+    for (std::size_t i = 0; i < places.size(); ++i)
+      deck.node(static_cast<int>(i) + 1, places[i].x(), places[i].y());
+    deck.material(1, 1, {1e4, 0.3}, 20.0);
+    deck.group(1, static_cast<int>(Cell::tri3), 0, 1);
+    deck.group(2, static_cast<int>(Cell::tri3), 0, 1);
+    const std::vector<std::array<int, 3>> triangles{{1, 2, 5}, {1, 5, 4}, {2, 3, 6},
+                                                    {2, 6, 5}, {4, 5, 8}, {4, 8, 7}};
+    for (std::size_t e = 0; e < triangles.size(); ++e) {
+      std::vector<int> nodes(triangles[e].begin(), triangles[e].end());
+      std::rotate(nodes.begin(), nodes.begin() + turn, nodes.end());
+      deck.element(static_cast<int>(e) + 1, e < 4 ? 1 : 2, nodes);
+    }
+    for (const int node : {1, 2, 3}) deck.fix(node, 1, 1);
+    for (const int node : {4, 7, 6}) deck.fix(node, 1, 0);
+    deck.stage().gravity_y = -1.0;
+    deck.stage();
+    deck.stage().deaths = {2};
+    deck.water(1, 0, 1, 0, {0.0, 12.0});
+    deck.water(8, 0, 2, 0, {0.0, 5.0}, 0.5);
+    const Model model = bench().build(deck.text());
+    Activity activity(model);
+    const auto at = [&](int stage, std::size_t group, int element, const Vector2& place) {
+      return PorePressure(model, stage, activity.group, activity.dof_map, nullptr)
+          .at(group, element, place, {});
+    };
+    EXPECT_NEAR(at(1, 1, 0, {4.0, 6.0}), kWater * (6.0 - 2.0), 1e-10);
+    EXPECT_NEAR(at(1, 0, 2, {4.0, 2.0}), kWater * (10.0 - 3.5), 1e-10);
+    EXPECT_NEAR(at(1, 0, 0, {2.0, 2.0}), kWater * (10.0 - 2.0), 1e-10);
+    activity.enter(model.stages[2]);
+    EXPECT_NEAR(at(2, 0, 0, {2.0, 2.0}), kWater * (10.0 - 2.0), 1e-10);
+  }
+}
+
+// A side that is held along its normal has the ground's water, by a support along x or at an angle.
+TEST(Water, RapidDrawdownBesideInclinedSupports) {
+  const auto force = [](const std::string& support) {
+    std::string text = two_layers("plane strain", 7.0, R"(
+[[stage]]
+[[water]]
+kind = "drawdown"
+stage = 2
+value1 = 0.5
+values = [[0, 6], [4, 6]]
+)");
+    const std::string line = "[[0, 6], [4, 6]]";
+    text.replace(text.find(line), line.size(), "[[0, 10], [4, 10]]");
+    const std::string right = "line = \"right\"\nx = \"fixed\"";
+    text.replace(text.find(right), right.size(), "line = \"right\"\n" + support);
+    const Model model = build_model(read_model_file_text(text, "drawdown.sage.toml"), bench().catalogue());
+    Activity activity(model);
+    return water_force(model, activity, PorePressure(model, 1, activity.group, activity.dof_map, nullptr));
+  };
+  const Eigen::VectorXd along_x = force("x = \"fixed\""), inclined = force("y = \"fixed\"\nangle = 90");
+  EXPECT_LT((along_x - inclined).cwiseAbs().maxCoeff(), 1e-12 * along_x.cwiseAbs().maxCoeff());
 }
 
 // What is dug out under water leaves an edge on which water stands.
@@ -870,10 +934,13 @@ TEST(Water, UpliftReportCountsSlabs) {
     std::vector<int> base;
     for (int node = 0; node < model.mesh.nodes(); ++node)
       if (model.mesh.x(1, node) == -10.0) base.push_back(node);
-    const Uplift found = uplift_on(model, 0, base, activity, unknowns);
     const double area = geometry == 1 ? 2.0 : 4.0 * std::numbers::pi;
-    EXPECT_NEAR(found.weight, area * (19.0 * 6.0 + 12.0 + 5.0 + 3.0 * kWater), 1e-11 * area * 200.0);
-    EXPECT_NEAR(found.water, area * 10.0 * kWater, 1e-11 * area * 200.0);
+    for (const std::vector<int>& line :
+         {base, {base.front(), base.back()}}) {  // the second has a point between the plates
+      const Uplift found = uplift_on(model, 0, line, activity, unknowns);
+      EXPECT_NEAR(found.weight, area * (19.0 * 6.0 + 12.0 + 5.0 + 3.0 * kWater), 1e-11 * area * 200.0);
+      EXPECT_NEAR(found.water, area * 10.0 * kWater, 1e-11 * area * 200.0);
+    }
   }
 }
 
@@ -1483,6 +1550,12 @@ TEST(Water, WhatContradictsIsNamed) {
   EXPECT_EQ(code_of_drawdown(0, 1.5, 0), "S248") << "B-bar";
   EXPECT_EQ(code_of_drawdown(1, 0.9, 0), "S248") << "action";
   EXPECT_EQ(code_of_drawdown(0, 0.9, 2), "S248") << "action of the line before";
+  EXPECT_EQ(code_of([](DeckWriter& d) {
+              d.water(1, 0, 1, 0, {0.0, 5.0});
+              d.water(8, 0, 2, 0, {0.0, 5.1}, 1.0);
+            }),
+            "S248")
+      << "a level above the one before";
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {0.3}, 0.2); }), "S248")
       << "values that no one reads";
   EXPECT_EQ(code_of([](DeckWriter& d) { d.water(2, 0, 1, 0, {}, 0.0, 0.3); }), "S248")

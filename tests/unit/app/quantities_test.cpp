@@ -224,13 +224,27 @@ const std::vector<Row>& rows() {
       {"support of a node",
        {"", "held node(s) that are no whole edge", ""},
        [](Model& m) { m.fixities.push_back(held(4, FixityCode::fixed)); }},
+      {"tie",
+       {"", "inclined supports and ties", "inclined supports and ties"},
+       [](Model& m) {
+         m.ties.push_back({4, 5, {1, 0}, 0});
+       }},
+      {"rapid drawdown",
+       {"", "2 water card(s)", "2 water card(s)"},
+       [](Model& m) {
+         m.units.water_unit_weight = 9.81;
+         m.water.push_back({0, 0, WaterKind::line, WaterAction::edges, 0.0, {{0.0, 9.0}}, {}, {}});
+         m.stages.push_back(m.stages.back());
+         m.stages.back().number = 2;
+         m.water.push_back({1, 0, WaterKind::drawdown, WaterAction::edges, 0.5, {{0.0, 8.0}}, {}, {}});
+       }},
       {"support along a turned line",
-       {"", "supports along turned lines", "supports along turned lines"},
+       {"", "inclined supports", "inclined supports"},
        [](Model& m) {
          m.turned_fixities.push_back({held(4, FixityCode::fixed), 30.0});
        }},
       {"support along a turned line in a stage",
-       {"", "supports along turned lines", "supports along turned lines"},
+       {"", "inclined supports", "inclined supports"},
        [](Model& m) {
          first(m).turned_fixities.push_back({held(4, FixityCode::fixed, 0.01), 30.0});
        }},
