@@ -188,7 +188,7 @@ class WaterForce {
 
   // Along a unit vector.
   bool is_held(int node, const Vector2& n) const {
-    constexpr double kParallel = 1e-6;
+    constexpr double kParallel = 1e-3;  // angles of cards have few digits
     const TurnedNode* const turned = activity_.turned_at(node);
     if (turned != nullptr && turned->slides)
       return std::abs(turned->slide[0] * n.x() + turned->slide[1] * n.y()) < kParallel;
