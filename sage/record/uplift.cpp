@@ -13,7 +13,7 @@ namespace sage {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFactor = std::numeric_limits<double>::quiet_NaN();
 
 // What stands above and presses below a place, as stresses.
 struct Column {
@@ -75,8 +75,8 @@ Uplift uplift_on(const Model& model, int stage, const std::vector<int>& nodes, c
     }
   }
   const double excess = sum.water - sum.at_rest;
-  return {sum.weight, sum.water, sum.water > 0.0 ? sum.weight / sum.water : kNone,
-          excess > 1e-9 * sum.water ? (sum.weight - sum.at_rest) / excess : kNone};
+  return {sum.weight, sum.water, sum.water > 0.0 ? sum.weight / sum.water : kNoFactor,
+          excess > 1e-9 * sum.water ? (sum.weight - sum.at_rest) / excess : kNoFactor};
 }
 
 }  // namespace sage
