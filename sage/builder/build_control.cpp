@@ -34,6 +34,7 @@ bool are_tied(const Builder& b, const LoadControl& control) {
 
 // Why the stage cannot be controlled; empty = it can.
 std::string refusal(const Builder& b, const Stage& stage) {
+  if (are_tied(b, stage.control)) return "its two displacements are tied to each other";
   if (stage.method != Method::newton) return "it needs Newton's method (method 0)";
   if (b.model.large_strain) return "it is not possible with large strain";
   if (b.model.has_pores() || !stage.field_loads.empty() || !stage.field_fixities.empty() ||
@@ -86,8 +87,7 @@ void read_control(Builder& b, const CardView& card, Stage& stage) {
 void check_controls(Builder& b) {
   for (const Stage& stage : b.model.stages) {
     if (!stage.is_controlled()) continue;
-    const std::string reason =
-        are_tied(b, stage.control) ? "its two displacements are tied to each other" : refusal(b, stage);
+    const std::string reason = refusal(b, stage);
     if (!reason.empty()) b.error("S581", stage.where, "load_control: " + reason);
   }
 }

@@ -8,12 +8,26 @@
 
 namespace sage {
 
-const WaterCard* water_card(const Model& model, int stage, int group) {
+namespace {
+
+// The last one of the deck among the cards that hold in the stage and are meant.
+template <class Meant>
+const WaterCard* last_card(const Model& model, int stage, const Meant& meant) {
   const WaterCard* found = nullptr;
-  for (const WaterCard& card : model.water) {
-    if (!card.pressure() || card.stage > stage || (card.group >= 0 && card.group != group)) continue;
-    if (found == nullptr || card.stage >= found->stage) found = &card;
-  }
+  for (const WaterCard& card : model.water)
+    if (card.stage <= stage && meant(card) && (found == nullptr || card.stage >= found->stage)) found = &card;
+  return found;
+}
+
+bool is_about(const WaterCard& card, int group) {
+  return card.group < 0 || card.group == group;
+}
+
+}  // namespace
+
+const WaterCard* water_card(const Model& model, int stage, int group) {
+  const WaterCard* const found =
+      last_card(model, stage, [&](const WaterCard& card) { return card.pressure() && is_about(card, group); });
   return found != nullptr && found->kind != WaterKind::dry ? found : nullptr;
 }
 
@@ -25,20 +39,16 @@ const WaterCard* line_before(const Model& model, const WaterCard& drawdown, int 
 }
 
 bool is_undrained(const Model& model, int stage, int group) {
-  const WaterCard* found = nullptr;
-  for (const WaterCard& card : model.water)
-    if (!card.pressure() && card.stage <= stage && (card.group < 0 || card.group == group))
-      if (found == nullptr || card.stage >= found->stage) found = &card;
+  const WaterCard* const found =
+      last_card(model, stage, [&](const WaterCard& card) { return !card.pressure() && is_about(card, group); });
   return found != nullptr && found->kind == WaterKind::undrained;
 }
 
 const WaterCard* water_card(const Model& model, int stage, int group, WaterSide side) {
-  const WaterCard* found = nullptr;
-  for (const WaterCard& card : model.water) {
+  const WaterCard* const found = last_card(model, stage, [&](const WaterCard& card) {
     const bool here = card.value == 0.0 || (card.value > 0.0) == (side == WaterSide::left);
-    if (!card.pressure() || card.stage > stage || card.group != group || !here) continue;
-    if (found == nullptr || card.stage >= found->stage) found = &card;
-  }
+    return card.pressure() && card.group == group && here;
+  });
   return found != nullptr && found->kind == WaterKind::line ? found : nullptr;
 }
 

@@ -177,20 +177,24 @@ RATIO = {0.025: 1.010135, 0.05: 0.99500, 0.1: 1.03678, 0.15: 1.05399}
 HISTORY = {0.025: 1.010135, 0.05: 1.016906, 0.075: 1.022150, 0.1: 1.026410}
 SPECIMEN_MESHES = "Mesh: elements along the radius x elements along half the height."
 SPECIMEN_OPTIONS = "`sagefe run --element ... --formulation ... [--coarsen] --refine k --threads N`."
+
+
+def specimen_note(deck, strains, values, known, source=""):
+    """strains: in percent, the last one that of the value.  values: with all their digits.  known: their error."""
+    return (
+        f"The deck `{deck}` with other elements, meshes, increments and tolerances. Value: ratio of the measured to the correct deviator stress at an axial strain of {strains[-1]} %. "
+        f"Error: the largest of the four relative errors of this ratio at {', '.join(strains[:-1])} and {strains[-1]} %. The converged ratios there are {', '.join(values)}, known to {known} ([accuracy](theory/accuracy.md)). "
+        + source + SPECIMEN_MESHES
+    )
+
+
 RATIO_TITLE = "Error against run time: Drucker-Prager specimen to 15 %"
-RATIO_NOTE = (
-    "The deck `dp_285` with other elements, meshes, increments and tolerances. Value: ratio of the measured to the correct deviator stress at an axial strain of 15 %. Error: the largest of the four relative errors of this ratio at 2.5, 5, 10 and 15 %. The converged ratios there are "
-    + ", ".join(f"{v:.5f}" for v in RATIO.values())
-    + ", known to 5e-5 ([accuracy](theory/accuracy.md)). The value 1.167 of the source chapter of these decks is that of the row quad4 full, 14 x 28. "
-    + SPECIMEN_MESHES
+RATIO_NOTE = specimen_note(
+    "dp_285", ("2.5", "5", "10", "15"), [f"{v:.5f}" for v in RATIO.values()], "5e-5",
+    "The value 1.167 of the source chapter of these decks is that of the row quad4 full, 14 x 28. ",
 )
 HISTORY_TITLE = "Error against run time: elastic specimen on an interface"
-HISTORY_NOTE = (
-    "The deck `friction_285_nu0495` with other elements, meshes, increments and tolerances. Value: ratio of the measured to the correct deviator stress at an axial strain of 10 %. Error: the largest of the four relative errors of this ratio at 2.5, 5, 7.5 and 10 %. The converged ratios there are "
-    + ", ".join(f"{v:.6f}" for v in HISTORY.values())
-    + ", known to 3e-6 ([accuracy](theory/accuracy.md)). "
-    + SPECIMEN_MESHES
-)
+HISTORY_NOTE = specimen_note("friction_285_nu0495", ("2.5", "5", "7.5", "10"), [f"{v:.6f}" for v in HISTORY.values()], "3e-6")
 
 
 def ratio(bench):

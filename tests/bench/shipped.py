@@ -1,8 +1,7 @@
 """Shipped decks as users run them: the goals for their time, and the effect of each optimisation."""
+import csv
 import re
 import subprocess
-
-import csv
 
 import scenes
 from measure import Job, Table, markdown, ms
