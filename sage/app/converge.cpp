@@ -20,7 +20,7 @@
 #include "sage/app/wrap.hpp"
 #include "sage/convergence/convergence.hpp"
 #include "sage/deck/optional_file.hpp"
-#include "sage/model/coarse_shape.hpp"
+#include "sage/model/arc_sides.hpp"
 #include "sage/record/discretisation.hpp"
 #include "sage/record/out_file.hpp"
 #include "sage/record/report_components.hpp"
@@ -452,7 +452,7 @@ MeshSequence ConvergenceStudy::choose_sequence() {
     throw InputError("S906", {request_.deck, 0, 0, 0}, "warnings count as errors (--strict)");
   request_.input.strict = false;
   title_ = first.title;
-  curved_ = has_curved_sides(first);
+  curved_ = has_parabolic_sides(first);
   if (first.reports.empty())
     throw InputError("S907", {request_.deck, 0, 0, 0},
                      "--converge needs a report card: it says which number must be certain");

@@ -223,6 +223,22 @@ void add_middle_nodes(Builder& b, PlacedNodes& nodes) {
       place_middle_nodes(card, found->second, nodes);
 }
 
+// Of a drawing whose nodes were moved since (by a sweep, say) the sides stay as their nodes have them.
+void add_arc(Builder& b, const DeckArc& drawn) {
+  constexpr double kOnCircle = 1e-9;  // of the radius: drawn nodes differ by rounding
+  Arc arc{{drawn.x, drawn.y}, {}};
+  double radius = 0.0;
+  for (const int number : drawn.nodes) {
+    const int* const node = b.node_index.find(number);
+    if (node == nullptr) return;
+    const double distance = (b.model.mesh.x.col(*node) - arc.centre).norm();
+    if (arc.ends.empty()) radius = distance;
+    if (!(std::abs(distance - radius) <= kOnCircle * radius)) return;
+    arc.ends.push_back(*node);
+  }
+  b.model.mesh.arcs.push_back(std::move(arc));
+}
+
 }  // namespace
 
 void build_nodes(Builder& b) {
@@ -245,6 +261,7 @@ void build_nodes(Builder& b) {
     b.node_index.try_emplace(number, index);
   });
   mesh.deck_nodes = mesh.nodes();
+  for (const DeckArc& arc : b.deck.arcs) add_arc(b, arc);
 }
 
 }  // namespace sage::builder

@@ -92,6 +92,12 @@ using ValueList = std::deque<FieldValue>;
 // Reads one card's values by canonical field name.
 class CardView;
 
+// A part of a circle that sides of elements follow in a drawing.  No card says this.
+struct DeckArc {
+  double x = 0.0, y = 0.0;  // of the centre
+  std::vector<int> nodes;   // numbers of the nodes at the ends of the sides, in their order
+};
+
 class Deck {
  public:
   std::string file;                                      // as given, for messages
@@ -105,6 +111,7 @@ class Deck {
   std::vector<double> numbers;     // of all cards; blank_number() where a field is blank
   std::vector<ValuePlace> places;  // of the cards that have them
   Diagnostics diagnostics;         // warnings and notes of reading (errors throw InputError)
+  std::vector<DeckArc> arcs;
   std::vector<LeftOut> left_out;   // of a foreign deck, when it was given the meaning of this program's cards
 
   // A number of no deck, which stands for a blank field.

@@ -41,6 +41,7 @@ class CardWriter {
   // without it, so that it takes BuildOptions::partial; otherwise the message is a note.
   void left_out(const SourcePosition& where, const std::string& what, const std::string& message,
                 bool needs_partial = true);
+  void add_arc(DeckArc arc) { deck_.arcs.push_back(std::move(arc)); }
   // The same card again, for those that mean the same in both decks.
   void copy(std::string_view name);
   Deck take();

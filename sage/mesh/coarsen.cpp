@@ -640,6 +640,7 @@ bool Coarsening::run() {
 }  // namespace
 
 bool coarsen(Work& b) {
+  if (!b.model.mesh.arcs.empty()) return false;  // every node of them shapes the outline
   return Coarsening(b).run();
 }
 

@@ -1,11 +1,12 @@
 // Mid-side and inner nodes that element cards leave blank.  Those on an edge are shared by all elements that
 // have it and lie where the element's shape wants them (Gauss-Lobatto places in elements of high degree), on
-// the straight edge or on the parabola through a given middle node; inner nodes lie on the map of the sides.
+// the straight edge, on the parabola through a given middle node, or on the circle that the edge follows; inner nodes lie on the map of the sides.
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
 #include "sage/mesh/edges.hpp"
+#include "sage/model/arc_sides.hpp"
 
 namespace sage::mesh {
 
@@ -14,7 +15,7 @@ namespace {
 // What has been made so far on the edges, and which element began each.
 struct Making {
   explicit Making(Model& model)
-      : nodes(model.mesh), edges(model, true), owner(edges.edges().size()), inner(model) {}
+      : nodes(model.mesh), edges(model, true), arcs(model.mesh), owner(edges.edges().size()), inner(model) {}
 
   struct Owner {
     const Group* group = nullptr;
@@ -24,6 +25,7 @@ struct Making {
 
   NewNodes nodes;
   EdgeTable edges;
+  ArcSides arcs;
   std::vector<Owner> owner;                                 // of each edge
   std::unordered_map<std::size_t, std::vector<int>> given;  // of some: inner nodes that cards give, -1 = none
   InnerNodes inner;
@@ -93,7 +95,7 @@ void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector
   for (std::size_t i = 2; i < local.size(); ++i)
     if (int& node = nodes[local[i]]; node < 0)
       node = made.nodes.add(
-          along_edge(made.nodes.at(a), made.nodes.at(z), middle, place_on_edge(parent, local, i)));
+          made.arcs.along(a, z, made.nodes.at(a), made.nodes.at(z), middle, place_on_edge(parent, local, i)));
   for (std::size_t i = 0; i < inner.count(); ++i) {
     const double t = place_on_edge(parent, local, inner.index(i));
     made.edges.add(edge, {{inner.rising ? t : 1 - t, inner.at(i)}});

@@ -115,7 +115,7 @@ struct Subdivision::SplitElement {
   bool has_edge(int side) const { return !group->interface() || side % 2 == 0; }
 };
 
-Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), inner_(b.model), edges_(b.model, false) {
+Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), inner_(b.model), arcs_(b.model.mesh), edges_(b.model, false) {
   for (const Stage& stage : b.model.stages)
     for (const EdgeLoad& load : stage.pressures) loaded_.emplace(load.group, load.element);
   for (const Group& group : b.model.groups) {
@@ -164,7 +164,7 @@ int Subdivision::cut(int a, int z, int middle, double t) {
     if (const EdgeTable::Link& link = edges_.link(i); link.near == a && link.place == place) return link.node;
   std::optional<Vector2> m;
   if (middle >= 0) m = nodes_.at(middle);
-  const int made = nodes_.add(along_edge(nodes_.at(a), nodes_.at(z), m, t));
+  const int made = nodes_.add(arcs_.along(a, z, nodes_.at(a), nodes_.at(z), m, t));
   edges_.add(*edge, {{a < z ? t : 1 - t, made}, -1, a, place});
   return made;
 }
@@ -301,8 +301,39 @@ void Subdivision::carry_loads(Stage& stage) const {
   stage.pressures = std::move(carried);
 }
 
+// The corners that were made on sides that follow a circle end the sides that follow it now.
+void Subdivision::divide_arcs() {
+  Mesh& mesh = b_->model.mesh;
+  if (mesh.arcs.empty()) return;
+  std::vector<char> corner(static_cast<std::size_t>(mesh.nodes()), 0);
+  for (const Group& group : b_->model.groups) {
+    if (group.structure()) continue;
+    for (int e = 0; e < group.elements(); ++e)
+      for (int k = 0; k < group.entry->corners; ++k) corner[group.nodes_of(e)[k]] = 1;
+  }
+  for (Arc& arc : mesh.arcs) {
+    std::vector<int> ends;
+    for (std::size_t i = 0; i < arc.ends.size(); ++i) {
+      const int a = arc.ends[i];
+      ends.push_back(a);
+      const EdgeTable::Edge* const edge =
+          i + 1 < arc.ends.size() ? edges_.find(a, arc.ends[i + 1]) : nullptr;
+      std::vector<OnEdge> inside;
+      for (int l = edge != nullptr ? edge->first : -1; l >= 0; l = edges_.link(l).next)
+        if (corner[edges_.link(l).node] != 0) inside.push_back(edges_.link(l));
+      const bool forward = edge != nullptr && edge->ends.first == a;
+      std::ranges::sort(inside, [&](const OnEdge& one, const OnEdge& other) {
+        return forward ? one.at < other.at : one.at > other.at;
+      });
+      for (const OnEdge& node : inside) ends.push_back(node.node);
+    }
+    arc.ends = std::move(ends);
+  }
+}
+
 void Subdivision::finish() {
   const int first_made = nodes_.append();
+  divide_arcs();
   inherit_along_edges(b_->model, edges_, first_made);
   for (Stage& stage : b_->model.stages) carry_loads(stage);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sage/mesh/edges.hpp"
+#include "sage/model/arc_sides.hpp"
 
 namespace sage::mesh {
 
@@ -47,10 +48,12 @@ class Subdivision {
   int node_at(SplitElement& parent, const Place& q, bool middle);
   int cut(int a, int z, int middle, double t);
   void carry_loads(Stage& stage) const;
+  void divide_arcs();
 
   Work* b_;
   NewNodes nodes_;
   InnerNodes inner_;
+  ArcSides arcs_;
   EdgeTable edges_;                       // every edge there was before, with what was cut
   std::set<std::pair<int, int>> loaded_;  // group, element: pressures act on its edges
   std::map<std::tuple<int, int, int>, std::vector<Segment>> segments_;  // of those: group, element, edge

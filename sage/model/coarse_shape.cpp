@@ -43,7 +43,7 @@ Vector2 CoarseShape::at(const Place& q) const {
   return point;
 }
 
-bool has_curved_sides(const Model& model) {
+bool has_curved_sides(const Model& model, const std::function<bool(int, int)>& left_out) {
   constexpr double kStraight = 1e-9;
   for (const Group& group : model.groups) {
     if (!group.entry->fills_area()) continue;
@@ -53,7 +53,8 @@ bool has_curved_sides(const Model& model) {
         const int* nodes = group.nodes_of(e);
         const Vector2 a = model.mesh.x.col(nodes[edge[0]]), along = model.mesh.x.col(nodes[edge[1]]) - a,
                       off = model.mesh.x.col(nodes[edge[2]]) - a;
-        if (std::abs(along.x() * off.y() - along.y() * off.x()) > kStraight * along.squaredNorm()) return true;
+        if (std::abs(along.x() * off.y() - along.y() * off.x()) <= kStraight * along.squaredNorm()) continue;
+        if (!left_out || !left_out(nodes[edge[0]], nodes[edge[1]])) return true;
       }
   }
   return false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 
 #include "sage/core/types.hpp"
@@ -26,8 +27,9 @@ struct CoarseShape {
 };
 
 struct Model;
-// Cards give middle nodes off the straight line: sides are parabolas in every mesh that is made of the deck's.
-bool has_curved_sides(const Model& model);
+// Whether a middle node lies off the straight line between its side's ends.  left_out, if given: sides, by the nodes at
+// their ends, that don't count.
+bool has_curved_sides(const Model& model, const std::function<bool(int, int)>& left_out = {});
 
 // Share of each corner in a place: linear in a triangle, bilinear in a quadrilateral.
 std::array<double, 4> corner_shares(int corners, const Place& q);

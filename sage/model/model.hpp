@@ -14,6 +14,12 @@
 
 namespace sage {
 
+// Sides of elements, one after the other, that follow a circle.
+struct Arc {
+  Vector2 centre = Vector2::Zero();
+  std::vector<int> ends;  // nodes (indices) at the ends of the sides
+};
+
 struct Mesh {
   Eigen::Matrix2Xd x;       // one column a node
   std::vector<int> number;  // the deck's node numbers; mid-side nodes made here get numbers above the deck's
@@ -22,6 +28,7 @@ struct Mesh {
   // Length: a place so close outside a solid counts as on its edge, however small the
   // elements there are (Locator).
   double reach = 0.0;
+  std::vector<Arc> arcs;  // of a drawing; cards know none (sage/model/arc_sides.hpp)
 
   int nodes() const { return static_cast<int>(number.size()); }
   int given_nodes() const { return nodes() - made_between; }  // of cards, or made by refining

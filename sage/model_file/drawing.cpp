@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "sage/messages/near_names.hpp"
 
@@ -385,9 +386,32 @@ std::vector<int> Drawing::joints_beside(int group) const {
   return {};
 }
 
+// The sides along an arc or circle, of the bodies on both sides of it and of a beam where they have nodes of their own.
+void Drawing::add_arcs(const SectionLine& line, const LineMesh& mesh) {
+  if (line.shape == LineShape::polyline) return;
+  const Vector2& centre = section_.points[line.centre].x;
+  const auto step = static_cast<std::size_t>(mesh_.nodes_per_edge - 1);
+  std::set<std::vector<int>> drawn;
+  for (const std::vector<int>* const nodes : {&mesh.left, &mesh.right, &mesh.beam}) {
+    DeckArc arc{centre.x(), centre.y(), {}};
+    const auto close = [&] {
+      if (arc.nodes.size() > 1 && drawn.insert(arc.nodes).second) out_.add_arc(arc);
+      arc.nodes.clear();
+    };
+    for (std::size_t i = 0; i < nodes->size(); i += step) {
+      if ((*nodes)[i] < 0)
+        close();
+      else
+        arc.nodes.push_back(number_of((*nodes)[i]));
+    }
+    close();
+  }
+}
+
 void Drawing::add_lines() {
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     const LineMesh& mesh = mesh_.lines[l];
+    add_arcs(section_.lines[l], mesh);
     if (!mesh.beam.empty()) add_structure(lines_[l], mesh);
     if (lines_[l].interface.side == InterfaceSide::none) continue;
     if (entry_->side_interface.empty()) {

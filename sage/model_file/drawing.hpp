@@ -75,6 +75,7 @@ class Drawing {
   void add_bars(const toml::table& root);
   void add_structure(const Line& line, const LineMesh& mesh);
   void add_interfaces(const Line& line, const LineMesh& mesh, bool left);
+  void add_arcs(const SectionLine& line, const LineMesh& mesh);
   int interface_material(const Line& line, int area);
   // A group's card and its elements' cards, `size` nodes each.
   int add_group(const std::string& name, const std::string& of, double element, int formulation, int material,
