@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <utility>
 
 #include "materials/stress_measures.hpp"
 
@@ -14,7 +14,8 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kOnSurface = 1e-12;   // of p_c: what rounding leaves outside
 constexpr double kIsotropic = 1e-13;   // of p_c: a deviator below has no direction
-constexpr double kAngleDigits = 1e-8;  // a last correction of Newton's method for the place on the surface
+constexpr double kAngle = 1e-12;       // of the place on the surface; rounding leaves less where the surface is near
+constexpr double kAngleDigits = 1e-7;  // a last correction of Newton's method, which doubles the digits
 constexpr int kRounds = 200;
 constexpr double kNearSurface = 1e-10;  // of ln(level)
 constexpr double kMostStrain = 100.0;   // change of volume that a current v can follow
@@ -93,6 +94,17 @@ double van_eekelen_ratio(double M) {
   return (3.0 - sine) / (3.0 + sine);
 }
 
+// Steps are small, so that ln and exp of their ratios mostly follow from a few terms of a series, to rounding.
+double exp_less_1(double x) {
+  if (!(std::abs(x) < 0.01)) return std::expm1(x);
+  return x * (1.0 + x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x / 720)))));
+}
+double log_1_plus(double x) {
+  if (!(std::abs(x) < 0.1)) return std::log1p(x);
+  const double y = x / (2.0 + x), z = y * y;
+  return 2.0 * y * (1.0 + z * (1.0 / 3 + z * (1.0 / 5 + z * (1.0 / 7 + z * (1.0 / 9 + z * (1.0 / 11 + z / 13))))));
+}
+
 // The mean of exp over [0, x], (exp(x) - 1)/x, and its derivative.
 struct MeanExp {
   double value, slope;
@@ -101,23 +113,25 @@ MeanExp mean_exp(double x) {
   if (std::abs(x) < 0.01)
     return {1.0 + x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x / 720)))),
             1.0 / 2 + x * (1.0 / 3 + x * (1.0 / 8 + x * (1.0 / 30 + x * (1.0 / 144 + x / 840))))};
-  const double exponential = std::exp(x), mean = (exponential - 1.0) / x;
-  return {mean, (exponential - mean) / x};
+  const double less_1 = exp_less_1(x), mean = less_1 / x;
+  return {mean, (less_1 - mean + 1.0) / x};
 }
 
 // q = sqrt(3 J2) of a deviator.
 double q_of(const Vector4& s) {
   return std::sqrt(1.5 * contract(s, s));
 }
+double J3_of(const Vector4& s) {
+  return s[2] * (s[0] * s[1] - s[3] * s[3]);
+}
 // sin(3 theta) of a deviator, tension +: 1 in triaxial compression, -1 in extension.
-double lode_of(const Vector4& s, double q) {
-  return std::clamp(-13.5 * s[2] * (s[0] * s[1] - s[3] * s[3]) / (q * q * q), -1.0, 1.0);
+double lode_of(double J3, double q) {
+  return std::clamp(-13.5 * J3 / (q * q * q), -1.0, 1.0);
 }
 // Its derivative with respect to the deviator, in tensor components; the mean may be anything.
 Vector4 lode_gradient(const Vector4& s, double q) {
   const Vector4 square(s[0] * s[0] + s[3] * s[3], s[1] * s[1] + s[3] * s[3], s[2] * s[2], s[3] * (s[0] + s[1]));
-  const double determinant = s[2] * (s[0] * s[1] - s[3] * s[3]);
-  return -13.5 / (q * q * q) * (square - 4.5 * determinant / (q * q) * s);
+  return -13.5 / (q * q * q) * (square - 4.5 * J3_of(s) / (q * q) * s);
 }
 
 // a such that a.b is a:b of two tensors.
@@ -133,10 +147,10 @@ double weight_of(double square) {
   return 1.0 / (1.0 + square / (kFar * kFar));
 }
 
-constexpr double kCritical = 0.5 * kPi;
-// Of a place on the surface, from ln(p/p_c).
-double angle_at(double log_share) {
-  return 2.0 * std::acos(std::exp(0.5 * std::min(log_share, 0.0)));
+constexpr double kCritical = 1.0;
+// q/(M p) of a place on the surface, from p/p_c.
+double height_at(double share) {
+  return std::sqrt(std::max(1.0 / share - 1.0, 0.0));
 }
 
 const Vector4 kVolumeRate(-1.0, -1.0, -1.0, 0.0);  // of the volume, compression positive, by the strain
@@ -147,16 +161,18 @@ const Vector4 kVolumeRate(-1.0, -1.0, -1.0, 0.0);  // of the volume, compression
 struct ModifiedCamClay::Point {
   Vector4 s = Vector4::Zero();  // deviator
   Matrix4 s_rate = Matrix4::Zero();
-  double log_p = 0.0, log_c = 0.0, v = 0.0;  // ln p, ln p_c, specific volume
+  double p = 0.0, p_c = 0.0, v = 0.0;     // v: specific volume
+  double log_p = 0.0, log_c = 0.0;        // ln of p and p_c over the p at the start of the update
   Vector4 log_p_rate = Vector4::Zero(), log_c_rate = Vector4::Zero(), log_v_rate = Vector4::Zero();
-  double log_least = 0.0;  // ln of the least p
+  double log_least = 0.0;  // of the least p, likewise
   double shear = 0.0, plastic_volume = 0.0;
   PointStatus status = PointStatus::elastic;
   bool at_floor = false;
-  double angle = kCritical;  // of the place on the surface, for the first guess of the next one
-  double kappa = 0.0;        // of the step that led here
+  double height = kCritical;  // q/(M p) of the place on the surface, for the first guess of the next one
+  double kappa = 0.0;         // of the step that led here
+  bool has_rates = true;      // false: they are left out
 
-  Vector4 ratio() const;  // s/p
+  Vector4 ratio() const { return s / p; }
 };
 
 // Which share of the update's increment a step takes, and how that changes with the increment.
@@ -169,38 +185,42 @@ struct ModifiedCamClay::Part {
 struct ModifiedCamClay::Step {
   const Point& from;
   Vector4 e;  // deviator of the strain increment, tensor components
+  double length, along, across;  // |e|, and the parts of the deviator s at the start along e and normal to it
   Matrix4 e_rate;
   double volume;
   Vector4 volume_rate;
-  double p0, p_c0;
+  double share, log_share, square;  // at the start: p/p_c, its ln, and the square of q/(M p) of a surface through there
   double kappa, harden;   // kappa/v and (lambda - kappa)/v, v the mean over the step
   Vector4 stiffer;        // rate of ln v
   double elastic_growth;  // ln(p/p0) of an elastic step, without the floor
   Vector4 elastic_growth_rate;
 };
 
+Vector4 ModifiedCamClay::trial_of(const Step& step, double G) {
+  return step.from.s + 2.0 * G * step.e;
+}
+
 // A place on the surface: p = p_c cos^2(angle/2), q = M p_c sin(angle)/2, and what the flow rule lacks there.
-// angle = pi/2 is the critical state.  Of an elastic trial only growth, G, trial, q_trial, lode and M are set.
+// angle = pi/2 is the critical state.  Of an elastic trial only growth and what set_trial() sets are there.
 struct ModifiedCamClay::OnSurface {
-  double angle, sine, cosine;
-  double log_share;                       // ln(p/p_c)
+  double height, sine, cosine;            // height: q/(M p) = tan(angle/2)
+  double share, log_share;                // p/p_c and its ln
   double log_share_rate;                  // this rate and the next are by the angle
   double hardening, hardening_rate;       // ln(p_c/p_c0)
   double x;                               // plastic change of volume
   double p_c, growth, G, G_by_growth, q;  // growth: ln(p/p0)
-  Vector4 trial;                          // elastic deviator
-  double q_trial, lode;
+  double q_trial, q_by_G;                 // of the elastic deviator s + 2 G e
   Slope slope;
+  double M_by_G;
   double lack, lack_rate;  // 3 G x sin(angle) - M cos(angle) (q_trial - q)
-  Vector4 lack_by_trial;   // rate by the trial deviator, tensor components
-  double by_G;             // and by G
+  double by_G;             // rate of what is lacking by G
   bool at_floor;
   bool has_direction;  // the trial deviator is no rounding
 };
 
 struct ModifiedCamClay::ElasticTrial {
   OnSurface at;
-  double log_share, log_level;  // ln(p/p_c) and ln(level)
+  double p, level;
 };
 
 // An increment that leaves the surface, in one step and in two.
@@ -249,7 +269,7 @@ double ModifiedCamClay::size_through(const Vector4& sigma) const {
   const Vector4 s = deviator(sigma);
   const double q = q_of(s);
   if (q == 0.0) return p;
-  const double M = slope(lode_of(s, q)).M;
+  const double M = slope(lode_of(J3_of(s), q)).M;
   return p + q / M * (q / M) / p;
 }
 
@@ -302,25 +322,37 @@ std::string ModifiedCamClay::remark() const {
 
 ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vector4& deps,
                                                  const Part& part) const {
-  const Vector4 e = deviatoric_projection() * deps;
-  const double volume = kVolumeRate.dot(deps);
+  const double volume = kVolumeRate.dot(deps), mean = -volume / 3.0;
+  const Vector4 e(deps[0] - mean, deps[1] - mean, deps[2] - mean, 0.5 * deps[3]);
   Step step{point,
             part.share * e,
-            part.share * deviatoric_projection() + e * part.rate.transpose(),
+            0.0,
+            0.0,
+            0.0,
+            Matrix4::Zero(),
             part.share * volume,
             part.share * kVolumeRate + volume * part.rate,
-            std::exp(point.log_p),
-            std::exp(point.log_c),
+            point.p / point.p_c,
+            point.log_p - point.log_c,
+            (point.p_c - point.p) / point.p,
             0.0,
             0.0,
             Vector4::Zero(),
             0.0,
             Vector4::Zero()};
+  step.length = std::sqrt(contract(step.e, step.e));
+  if (step.length > 0.0) step.along = contract(point.s, step.e) / step.length;
+  const Vector4 off = step.length > 0.0 ? Vector4(point.s - step.along / step.length * step.e) : point.s;
+  step.across = std::sqrt(contract(off, off));
+  if (point.has_rates) {
+    step.e_rate = part.share * deviatoric_projection();
+    if (!part.rate.isZero(0.0)) step.e_rate += e * part.rate.transpose();
+  }
   double v = point.v;
   if (clay_.current_volume) {
-    const MeanExp mean = mean_exp(-step.volume);
-    v *= mean.value;
-    step.stiffer = point.log_v_rate - mean.slope / mean.value * step.volume_rate;
+    const MeanExp growth = mean_exp(-step.volume);
+    v *= growth.value;
+    step.stiffer = point.log_v_rate - growth.slope / growth.value * step.volume_rate;
   }
   step.kappa = clay_.kappa / v;
   step.harden = (clay_.lambda - clay_.kappa) / v;
@@ -329,54 +361,62 @@ ModifiedCamClay::Step ModifiedCamClay::step_from(const Point& point, const Vecto
   return step;
 }
 
-// The elastic deviator for a growth of p.  Secant moduli over the step: K is (p - p0)/(elastic strain), and G in
-// proportion.
+// The elastic deviator for a growth of p, s + 2 G e, as far as q and M need it.  Secant moduli over the step: K is
+// (p - p0)/(elastic strain), and G in proportion.
 void ModifiedCamClay::set_trial(const Step& step, OnSurface& at) const {
   at.G = clay_.G;
   at.G_by_growth = 0.0;
   if (clay_.G == 0.0) {
     const MeanExp mean = mean_exp(at.growth);
-    const double first = by_bulk_ * step.p0 / step.kappa;
+    const double first = by_bulk_ * step.from.p / step.kappa;
     at.G = first * mean.value;
     at.G_by_growth = first * mean.slope;
   }
-  at.trial = step.from.s + 2.0 * at.G * step.e;
-  at.q_trial = q_of(at.trial);
-  at.has_direction = at.q_trial > kIsotropic * step.p_c0;
-  at.lode = at.has_direction ? lode_of(at.trial, at.q_trial) : 1.0;
-  at.slope = slope(at.lode);
+  const double along = step.along + 2.0 * at.G * step.length;
+  at.q_trial = std::sqrt(1.5 * (step.across * step.across + along * along));
+  at.has_direction = at.q_trial > kIsotropic * step.from.p_c;
+  at.q_by_G = at.has_direction ? 3.0 * step.length * along / at.q_trial : 0.0;
+  at.slope = {clay_.M, 0.0};
+  at.M_by_G = 0.0;
+  if (clay_.shape == DeviatoricShape::circle) return;
+  if (!at.has_direction) {
+    at.slope = slope(1.0);
+    return;
+  }
+  const Vector4 s = trial_of(step, at.G);
+  const Vector4& e = step.e;
+  const double cube = at.q_trial * at.q_trial * at.q_trial, J3 = J3_of(s);
+  const double J3_by_G =
+      2.0 * (e[2] * (s[0] * s[1] - s[3] * s[3]) + s[2] * (e[0] * s[1] + s[0] * e[1] - 2.0 * s[3] * e[3]));
+  at.slope = slope(lode_of(J3, at.q_trial));
+  at.M_by_G = -13.5 * at.slope.by_lode * (J3_by_G - 3.0 * J3 * at.q_by_G / at.q_trial) / cube;
 }
 
-ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double angle) const {
+ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double height) const {
+  const Point& from = step.from;
   OnSurface at{};
-  at.angle = angle;
-  const double c = std::cos(0.5 * angle), s = std::sin(0.5 * angle);
-  at.sine = 2.0 * s * c;
-  at.cosine = (c - s) * (c + s);
-  at.log_share = 2.0 * std::log(c);
-  at.log_share_rate = -s / c;
+  const double square = height * height;
+  at.height = height;
+  at.share = 1.0 / (1.0 + square);
+  at.sine = 2.0 * height * at.share;
+  at.cosine = (1.0 - square) * at.share;
+  at.log_share = step.log_share - log_1_plus((square - step.square) * step.share);
+  at.log_share_rate = -height;
   const double ratio = clay_.kappa / clay_.lambda;
-  at.hardening = ratio * (step.from.log_p + step.elastic_growth - step.from.log_c - at.log_share);
-  const double hardening_at_floor = step.from.log_least - step.from.log_c - at.log_share;
+  at.hardening = ratio * (step.elastic_growth + step.log_share - at.log_share);
+  const double hardening_at_floor = from.log_least - from.log_c - at.log_share;
   at.at_floor = hardening_at_floor > at.hardening;
   if (at.at_floor) at.hardening = hardening_at_floor;
   at.hardening_rate = -(at.at_floor ? 1.0 : ratio) * at.log_share_rate;
   at.x = step.harden * at.hardening;
-  at.p_c = step.p_c0 * std::exp(at.hardening);
-  at.growth = at.log_share + at.hardening + step.from.log_c - step.from.log_p;
+  at.p_c = from.p_c + from.p_c * exp_less_1(at.hardening);
+  at.growth = at.log_share - step.log_share + at.hardening;
   set_trial(step, at);
   const double M = at.slope.M;
   at.q = 0.5 * M * at.p_c * at.sine;
   const double beyond = at.q_trial - at.q;
   at.lack = 3.0 * at.G * at.x * at.sine - M * at.cosine * beyond;
-  if (at.has_direction) {
-    at.lack_by_trial = -1.5 * M * at.cosine / at.q_trial * at.trial;
-    if (at.slope.by_lode != 0.0)
-      at.lack_by_trial -= at.cosine * (beyond - at.q) * at.slope.by_lode * lode_gradient(at.trial, at.q_trial);
-  } else {
-    at.lack_by_trial.setZero();
-  }
-  at.by_G = 3.0 * at.x * at.sine + 2.0 * contract(at.lack_by_trial, step.e);
+  at.by_G = 3.0 * at.x * at.sine - at.cosine * (at.M_by_G * (beyond - at.q) + M * at.q_by_G);
   const double G_rate = at.G_by_growth * (at.log_share_rate + at.hardening_rate);
   const double q_rate = 0.5 * M * at.p_c * at.cosine + at.q * at.hardening_rate;
   at.lack_rate = 3.0 * at.G * (at.x * at.cosine + step.harden * at.hardening_rate * at.sine) +
@@ -384,30 +424,29 @@ ModifiedCamClay::OnSurface ModifiedCamClay::on_surface(const Step& step, double 
   return at;
 }
 
-// The place to which a trial stress outside the surface returns; log_trial: ln(p/p_c0) of the trial.  On the wet side it
-// lies between the trial's own mean stress and the critical state, on the dry side between the critical state and the
-// trial's: what the flow rule lacks changes its sign between, so there is an answer to every increment.
-ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, double log_trial,
+// The place to which a trial stress outside the surface returns.  On the wet side it lies between the trial's own mean stress
+// and the critical state, on the dry side between the critical state and the trial's: what the flow rule lacks changes its
+// sign between, so there is an answer to every increment.  Corrections are those of the angle.
+ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, const ElasticTrial& trial,
                                                               double guess) const {
-  const double to_critical = std::max(step.from.log_p + step.elastic_growth, step.from.log_least) -
-                             step.from.log_c +
-                             std::numbers::ln2;  // in its sign: of the plastic change of volume on the way
-  const double own = angle_at(log_trial);
-  double low = to_critical >= 0.0 ? std::min(own, kCritical) : kCritical;
-  double high = to_critical <= 0.0 ? std::max(own, kCritical) : kCritical;
+  const double p_c = step.from.p_c, own = height_at(trial.p / p_c);
+  double low = 2.0 * trial.p >= p_c ? std::min(own, kCritical) : kCritical;
+  double high = 2.0 * trial.p <= p_c ? std::max(own, kCritical) : kCritical;
+  const auto width = [&] { return std::atan(high) - std::atan(low); };
   OnSurface at{};
-  double next = std::clamp(guess, low, high), before = high - low;
+  double next = std::clamp(guess, low, high), before = kInfinite;
   for (int round = 0; round < kRounds; ++round) {
     at = on_surface(step, next);
     (at.lack < 0.0 ? low : high) = next;
-    next = at.lack_rate > 0.0 ? at.angle - at.lack / at.lack_rate : kInfinite;
-    const double way = std::abs(next - at.angle);
-    // Newton's method doubles the digits.
-    if (way <= kAngleDigits) return on_surface(step, std::clamp(next, low, high));
-    const bool slow = round % 3 == 2 && high - low > 0.5 * before;
-    if (round % 3 == 2) before = high - low;
-    if (slow || !(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == low || next == high) return on_surface(step, next);
+    const double turn = at.lack_rate > 0.0 ? -at.lack / at.lack_rate : kInfinite, half = 0.5 * turn;
+    next = (at.height + half) / (1.0 - at.height * half);
+    const bool within = std::abs(half) < kCritical && at.height * half < 1.0;
+    if (std::abs(turn) <= kAngle) return at;
+    if (within && std::abs(turn) <= kAngleDigits) return on_surface(step, std::clamp(next, low, high));
+    const bool slow = round % 3 == 2 && width() > 0.5 * std::exchange(before, width());
+    if (slow || !(within && next > low && next < high))
+      next = std::tan(0.5 * (std::atan(low) + std::atan(high)));
+    if (!(next > low && next < high)) return on_surface(step, std::clamp(next, low, high));
   }
   return at;
 }
@@ -415,21 +454,48 @@ ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, 
 ModifiedCamClay::Point ModifiedCamClay::elastic_end(const Step& step, const OnSurface& trial) const {
   Point end = step.from;
   end.at_floor = trial.growth > step.elastic_growth;
+  end.s = trial_of(step, trial.G);
+  end.p += end.p * exp_less_1(trial.growth);
+  end.log_p += trial.growth;
+  end.status = end.at_floor ? PointStatus::cut_off : PointStatus::elastic;
+  if (!end.has_rates) return end;
   const Vector4 growth_rate = end.at_floor ? Vector4(-step.from.log_p_rate) : step.elastic_growth_rate;
   Vector4 G_rate = trial.G_by_growth * growth_rate;
   if (clay_.G == 0.0) G_rate += trial.G * (step.from.log_p_rate + step.stiffer);
-  end.s = trial.trial;
   end.s_rate += 2.0 * trial.G * step.e_rate + 2.0 * step.e * G_rate.transpose();
-  end.log_p += trial.growth;
   end.log_p_rate += growth_rate;
-  end.status = end.at_floor ? PointStatus::cut_off : PointStatus::elastic;
+  return end;
+}
+
+ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSurface& at) const {
+  const double M = at.slope.M;
+  Point end = step.from;
+  end.p_c = at.p_c;
+  end.p = at.p_c * at.share;
+  end.log_c += at.hardening;
+  end.log_p = end.log_c + at.log_share;
+  const double left = at.has_direction ? at.q / at.q_trial : M * M * at.p_c / (6.0 * at.G * at.x + M * M * at.p_c);
+  end.s = left * trial_of(step, at.G);
+  if (end.has_rates) set_plastic_rates(step, at, left, end);
+  end.status = PointStatus::yielded;
+  end.at_floor = at.at_floor;
+  end.height = at.height;
+  end.shear += (1.0 - left) * at.q_trial / (std::sqrt(3.0) * at.G);
+  end.plastic_volume -= at.x;
   return end;
 }
 
 // First the rates at a constant angle, then that of the angle at which nothing is lacking, and with it all others.
-ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSurface& at) const {
+// left: of the trial's deviator.
+void ModifiedCamClay::set_plastic_rates(const Step& step, const OnSurface& at, double left, Point& end) const {
   const Point& from = step.from;
   const double ratio = clay_.kappa / clay_.lambda, M = at.slope.M;
+  const Vector4 s_trial = trial_of(step, at.G);
+  Vector4 lack_by_trial = Vector4::Zero();  // in tensor components
+  if (at.has_direction) lack_by_trial = -1.5 * M * at.cosine / at.q_trial * s_trial;
+  if (at.has_direction && at.slope.by_lode != 0.0)
+    lack_by_trial -=
+        at.cosine * (at.q_trial - 2.0 * at.q) * at.slope.by_lode * lode_gradient(s_trial, at.q_trial);
   const Vector4 G_direct =
       clay_.G > 0.0 ? Vector4(Vector4::Zero()) : Vector4(at.G * (from.log_p_rate + step.stiffer));
   Vector4 hardening = -from.log_c_rate;
@@ -439,57 +505,39 @@ ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSu
   const Matrix4 trial = from.s_rate + 2.0 * at.G * step.e_rate;  // at a constant G
   const Vector4 lack = 3.0 * at.G * at.sine * step.harden * (hardening - at.hardening * step.stiffer) +
                        M * at.cosine * at.q * (hardening + from.log_c_rate) + at.by_G * G +
-                       trial.transpose() * work_row(at.lack_by_trial);
+                       trial.transpose().lazyProduct(work_row(lack_by_trial));
   const Vector4 angle = -lack / at.lack_rate;
 
-  Point end = from;
-  end.log_c += at.hardening;
   end.log_c_rate += hardening + at.hardening_rate * angle;
-  end.log_p = end.log_c + at.log_share;
   end.log_p_rate = end.log_c_rate + at.log_share_rate * angle;
   const Vector4 G_rate = G_direct + at.G_by_growth * (end.log_p_rate - from.log_p_rate);
   const Matrix4 trial_rate = trial + 2.0 * step.e * G_rate.transpose();
-  double share = M * M * at.p_c / (6.0 * at.G * at.x + M * M * at.p_c);
-  Vector4 share_rate = Vector4::Zero();
+  Vector4 left_rate = Vector4::Zero();
   if (at.has_direction) {
-    share = at.q / at.q_trial;
-    Vector4 by_trial = -1.5 * share / (at.q_trial * at.q_trial) * at.trial;
-    if (at.slope.by_lode != 0.0) by_trial += share * at.slope.by_lode / M * lode_gradient(at.trial, at.q_trial);
-    share_rate = share * end.log_c_rate + 0.5 * M * at.p_c * at.cosine / at.q_trial * angle +
-                 trial_rate.transpose() * work_row(by_trial);
+    Vector4 by_trial = -1.5 * left / (at.q_trial * at.q_trial) * s_trial;
+    if (at.slope.by_lode != 0.0) by_trial += left * at.slope.by_lode / M * lode_gradient(s_trial, at.q_trial);
+    left_rate = left * end.log_c_rate + 0.5 * M * at.p_c * at.cosine / at.q_trial * angle +
+                trial_rate.transpose().lazyProduct(work_row(by_trial));
   }
-  end.s = share * at.trial;
-  end.s_rate = share * trial_rate + at.trial * share_rate.transpose();
-  end.status = PointStatus::yielded;
-  end.at_floor = at.at_floor;
-  end.angle = at.angle;
-  end.shear += (1.0 - share) * at.q_trial / (std::sqrt(3.0) * at.G);
-  end.plastic_volume -= at.x;
-  return end;
+  end.s_rate = left * trial_rate + s_trial * left_rate.transpose();
 }
 
-// Elastic to the end of the step; whether that is inside the surface, and ln(p/p_c) there.
+// Elastic to the end of the step; with the level there.
 ModifiedCamClay::ElasticTrial ModifiedCamClay::elastic_trial(const Step& step) const {
   const Point& from = step.from;
-  ElasticTrial trial{};
+  ElasticTrial trial{{}, kInfinite, kInfinite};
   trial.at.growth = std::max(step.elastic_growth, from.log_least - from.log_p);
-  trial.log_share = trial.at.growth + from.log_p - from.log_c;
-  trial.log_level = kInfinite;
   if (step.elastic_growth > kMostGrowth) return trial;
   set_trial(step, trial.at);
-  const double height = trial.at.q_trial / (trial.at.slope.M * std::exp(from.log_p + trial.at.growth));
-  trial.log_level = trial.log_share + std::log1p(height * height);
+  trial.p = from.p + from.p * exp_less_1(trial.at.growth);
+  const double height = trial.at.q_trial / (trial.at.slope.M * trial.p);
+  trial.level = trial.p / from.p_c * (1.0 + height * height);
   return trial;
 }
 
-// One step of backward Euler.
-ModifiedCamClay::Point ModifiedCamClay::advance(const Point& point, const Vector4& deps, const Part& part,
-                                                double guess) const {
-  const Step step = step_from(point, deps, part);
-  const ElasticTrial trial = elastic_trial(step);
-  Point end = trial.log_level <= kOnSurface
-                  ? elastic_end(step, trial.at)
-                  : plastic_end(step, return_to_surface(step, trial.log_share, guess));
+ModifiedCamClay::Point ModifiedCamClay::end_of(const Step& step, const ElasticTrial& trial, double guess) const {
+  Point end = trial.level <= 1.0 + kOnSurface ? elastic_end(step, trial.at)
+                                              : plastic_end(step, return_to_surface(step, trial, guess));
   end.kappa = step.kappa;
   if (clay_.current_volume) {
     end.v *= std::exp(-step.volume);
@@ -498,33 +546,52 @@ ModifiedCamClay::Point ModifiedCamClay::advance(const Point& point, const Vector
   return end;
 }
 
-// Rate of ln(level) at an elastic state.
-Vector4 ModifiedCamClay::log_level_rate(const Point& point) const {
-  const double q = q_of(point.s), p = std::exp(point.log_p);
-  if (q <= kIsotropic * std::exp(point.log_c)) return point.log_p_rate;
-  const Slope M = slope(lode_of(point.s, q));
-  const double height = q / (M.M * p), share = 2.0 * height * height / (1.0 + height * height);
+// One step of backward Euler.
+ModifiedCamClay::Point ModifiedCamClay::advance(const Point& point, const Vector4& deps, const Part& part,
+                                                double guess) const {
+  const Step step = step_from(point, deps, part);
+  return end_of(step, elastic_trial(step), guess);
+}
+
+// How ln(level) changes at a state.
+ModifiedCamClay::LevelChange ModifiedCamClay::level_change(const Point& point) const {
+  const double q = q_of(point.s);
+  if (q <= kIsotropic * point.p_c) return {1.0, Vector4::Zero()};
+  const Slope M = slope(clay_.shape == DeviatoricShape::circle ? 1.0 : lode_of(J3_of(point.s), q));
+  const double height = q / (M.M * point.p), share = 2.0 * height * height / (1.0 + height * height);
   Vector4 by_s = 1.5 / (q * q) * point.s;
   if (M.by_lode != 0.0) by_s -= M.by_lode / M.M * lode_gradient(point.s, q);
-  return (1.0 - share) * point.log_p_rate + share * point.s_rate.transpose() * work_row(by_s);
+  return {1.0 - share, share * by_s};
+}
+
+// A state on the surface that an increment leads along it or out of it, to rounding: then all of it is plastic.
+bool ModifiedCamClay::loads(const Step& still, const Step& whole) const {
+  const ElasticTrial now = elastic_trial(still);
+  if (!(now.level > 1.0 - kNearSurface)) return false;
+  const LevelChange level = level_change(still.from);
+  const double change = level.by_log_p * whole.volume / still.kappa +
+                        2.0 * now.at.G * contract(level.by_s, whole.e);
+  return change >= -kOnSurface;
 }
 
 // The part of an increment that is elastic, where all of it is not: up to the surface, without an error of its own.
-ModifiedCamClay::Part ModifiedCamClay::elastic_part(const Point& start, const Vector4& deps) const {
-  const auto end_of = [&](const Step& step, const ElasticTrial& trial) { return elastic_end(step, trial.at); };
-  const Step still = step_from(start, Vector4::Zero(), {});
-  const ElasticTrial level = elastic_trial(still);
-  if (level.log_level > -kNearSurface && log_level_rate(end_of(still, level)).dot(deps) >= 0.0) return {0.0};
+ModifiedCamClay::Part ModifiedCamClay::elastic_part(Point start, const Vector4& deps) const {
+  start.has_rates = true;
+  if (loads(step_from(start, Vector4::Zero(), {}), step_from(start, deps, {}))) return {0.0};
   double low = 0.0, high = 1.0, share = 0.5;
   for (int round = 0; round < kRounds; ++round) {
     const Step step = step_from(start, deps, {share});
     const ElasticTrial trial = elastic_trial(step);
-    (trial.log_level <= 0.0 ? low : high) = share;
+    const double log_level = std::log(trial.level);
+    (log_level <= 0.0 ? low : high) = share;
     double next = 0.5 * (low + high);
-    if (std::isfinite(trial.log_level)) {
-      const Vector4 rate = log_level_rate(end_of(step, trial));  // by the strains of the increment
-      const double slope = rate.dot(deps) / share, newton = share - trial.log_level / slope;
-      if (std::abs(trial.log_level) <= kOnSurface || high - low <= kOnSurface)
+    if (std::isfinite(log_level)) {
+      const Point end = elastic_end(step, trial.at);
+      const LevelChange level = level_change(end);
+      // By the strains of the increment.
+      const Vector4 rate = level.by_log_p * end.log_p_rate + end.s_rate.transpose() * work_row(level.by_s);
+      const double slope = rate.dot(deps) / share, newton = share - log_level / slope;
+      if (std::abs(log_level) <= kOnSurface || high - low <= kOnSurface)
         return slope > 0.0 ? Part{share, -rate / slope} : Part{share};
       if (newton > low && newton < high) next = newton;
     }
@@ -533,15 +600,11 @@ ModifiedCamClay::Part ModifiedCamClay::elastic_part(const Point& start, const Ve
   return {low};
 }
 
-Vector4 ModifiedCamClay::Point::ratio() const {
-  return std::exp(-log_p) * s;
-}
-
 // Richardson's extrapolation from one step and two of half the size: of second order.  It works on ln p and s/p, and
 // p_c follows, so that the answer is a stress on a surface.  Where the two differ much it is left out by degrees.
 ModifiedCamClay::Point ModifiedCamClay::extrapolated(const Point& once, const Point& twice) const {
   const auto ratio_rate = [](const Point& point) {
-    return Matrix4(std::exp(-point.log_p) * (point.s_rate - point.s * point.log_p_rate.transpose()));
+    return Matrix4((point.s_rate - point.s * point.log_p_rate.transpose()) / point.p);
   };
   const Vector4 r2 = twice.ratio(), dr = r2 - once.ratio();
   const Matrix4 r2_rate = ratio_rate(twice), dr_rate = r2_rate - ratio_rate(once);
@@ -549,16 +612,17 @@ ModifiedCamClay::Point ModifiedCamClay::extrapolated(const Point& once, const Po
   const Vector4 dp_rate = twice.log_p_rate - once.log_p_rate;
   const double share = weight_of(square_difference(dp, dr));
   const Vector4 share_rate =
-      -2.0 * share * share / (kFar * kFar) * (dp * dp_rate + dr_rate.transpose() * work_row(dr));
+      -2.0 * share * share / (kFar * kFar) * (dp * dp_rate + dr_rate.transpose().lazyProduct(work_row(dr)));
   Point end = twice;
   end.log_p += share * dp;
   end.log_p_rate += share * dp_rate + dp * share_rate;
   const Vector4 r = r2 + share * dr;
-  const double p = std::exp(end.log_p);
+  end.p += end.p * exp_less_1(share * dp);
+  const double p = end.p;
   end.s = p * r;
   end.s_rate =
       p * (r2_rate + share * dr_rate + dr * share_rate.transpose()) + end.s * end.log_p_rate.transpose();
-  end.log_c = std::log(size_through(end.s - p * unit_tensor()));
+  end.p_c = size_through(end.s - p * unit_tensor());
   end.shear += share * (twice.shear - once.shear);
   end.plastic_volume += share * (twice.plastic_volume - once.plastic_volume);
   return end;
@@ -570,11 +634,11 @@ ModifiedCamClay::PlasticIncrement ModifiedCamClay::plastic_increment(const Point
   const Part elastic = elastic_part(start, deps), rest{1.0 - elastic.share, -elastic.rate};
   const Part half{0.5 * rest.share, 0.5 * rest.rate};
   Point yield = elastic.share > 0.0 ? advance(start, deps, elastic, kCritical) : start;
-  yield.angle = angle_at(yield.log_p - yield.log_c);
-  PlasticIncrement increment{{}, advance(yield, deps, half, yield.angle), {}, false};
+  yield.height = height_at(yield.p / yield.p_c);
+  PlasticIncrement increment{{}, advance(yield, deps, half, yield.height), {}, false};
   const auto& [once, middle, twice, smooth] = increment;
-  increment.twice = advance(middle, deps, half, 2.0 * middle.angle - yield.angle);
-  increment.once = advance(yield, deps, rest, twice.angle);
+  increment.twice = advance(middle, deps, half, 2.0 * middle.height - yield.height);
+  increment.once = advance(yield, deps, rest, twice.height);
   increment.smooth = once.status == PointStatus::yielded && twice.status == PointStatus::yielded &&
                      !(once.at_floor || middle.at_floor || twice.at_floor);
   return increment;
@@ -583,9 +647,10 @@ ModifiedCamClay::PlasticIncrement ModifiedCamClay::plastic_increment(const Point
 ModifiedCamClay::Point ModifiedCamClay::start_of(const PointIn<4>& in) const {
   Point start;
   start.s = deviator(in.sigma0);
-  start.log_least = std::log(in.h0[kLeast]);
-  start.log_p = std::log(std::max(-mean_stress(in.sigma0), in.h0[kLeast]));
-  start.log_c = std::log(in.h0[kPressure]);
+  start.p = std::max(-mean_stress(in.sigma0), in.h0[kLeast]);
+  start.p_c = in.h0[kPressure];
+  start.log_c = std::log(start.p_c / start.p);
+  start.log_least = std::log(in.h0[kLeast] / start.p);
   start.v = in.h0[kVolume];
   return start;
 }
@@ -596,13 +661,15 @@ ModifiedCamClay::Point ModifiedCamClay::start_of(const PointIn<4>& in) const {
 double ModifiedCamClay::path_error(const PointIn<4>& in, const Vector4& sigma,
                                    std::span<const double> h) const {
   if (h[kShear] == in.h0[kShear] && h[kPlasticVolume] == in.h0[kPlasticVolume]) return 0.0;
-  const PlasticIncrement increment = plastic_increment(start_of(in), in.deps);
+  Point start = start_of(in);
+  start.has_rates = false;
+  const PlasticIncrement increment = plastic_increment(start, in.deps);
   const double square = square_difference(increment.twice.log_p - increment.once.log_p,
                                           increment.twice.ratio() - increment.once.ratio());
   const double left = increment.smooth ? 1.0 - weight_of(square) : 1.0,
                steps = left * std::sqrt(square) + square;
   const Vector4 chord = sigma - in.sigma0,
-                middle = increment.middle.s - std::exp(increment.middle.log_p) * unit_tensor() - in.sigma0;
+                middle = increment.middle.s - increment.middle.p * unit_tensor() - in.sigma0;
   const double length = contract(chord, chord);
   const Vector4 off = length > 0.0 ? Vector4(middle - contract(middle, chord) / length * chord) : middle;
   const double path = std::sqrt(contract(off, off) / contract(sigma, sigma));
@@ -617,20 +684,21 @@ Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
   const bool small = !clay_.current_volume || std::abs(kVolumeRate.dot(in.deps)) < kMostStrain;
   if (!(in.h0[kPressure] > 0.0 && in.h0[kLeast] > 0.0 && small)) return Outcome::cut_step;
   const Point start = start_of(in);
-  const ElasticTrial trial = elastic_trial(step_from(start, in.deps, {}));
+  const Step whole = step_from(start, in.deps, {});
+  const ElasticTrial trial = elastic_trial(whole);
   Point end;
-  if (trial.log_level <= kOnSurface) {
-    end = advance(start, in.deps, {}, kCritical);
+  if (trial.level <= 1.0 + kOnSurface) {
+    end = end_of(whole, trial, kCritical);
   } else {
     const PlasticIncrement increment = plastic_increment(start, in.deps);
     end = increment.smooth ? extrapolated(increment.once, increment.twice) : increment.twice;
-    out.h1[kPressure] = std::exp(end.log_c);
+    out.h1[kPressure] = end.p_c;
     out.h1[kShear] = std::max(in.h0[kShear] + end.shear, in.h0[kShear]);
     out.h1[kPlasticVolume] += end.plastic_volume;
   }
-  const double p = std::exp(end.log_p);
-  if (!(end.log_p < kMostGrowth && end.s.allFinite() && end.s_rate.allFinite() && end.log_p_rate.allFinite() &&
-        std::isfinite(end.log_c))) {
+  const double p = end.p;
+  if (!(end.log_p < kMostGrowth && std::isfinite(p) && end.s.allFinite() && end.s_rate.allFinite() && end.log_p_rate.allFinite() &&
+        std::isfinite(end.p_c))) {
     std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
     return Outcome::cut_step;
   }

@@ -63,6 +63,10 @@ class ModifiedCamClay final : public SolidLaw,
   struct Slope {
     double M, by_lode;  // M and its derivative with respect to sin(3 theta)
   };
+  struct LevelChange {
+    double by_log_p;
+    Vector4 by_s;  // tensor components
+  };
   struct Point;
   struct Part;
   struct Step;
@@ -72,15 +76,19 @@ class ModifiedCamClay final : public SolidLaw,
   Slope slope(double lode) const;
   double size_through(const Vector4& sigma) const;
   Step step_from(const Point& point, const Vector4& deps, const Part& part) const;
+  static Vector4 trial_of(const Step& step, double G);
   void set_trial(const Step& step, OnSurface& at) const;
-  OnSurface on_surface(const Step& step, double angle) const;
-  OnSurface return_to_surface(const Step& step, double log_trial, double guess) const;
+  OnSurface on_surface(const Step& step, double height) const;
+  OnSurface return_to_surface(const Step& step, const ElasticTrial& trial, double guess) const;
   Point elastic_end(const Step& step, const OnSurface& trial) const;
   Point plastic_end(const Step& step, const OnSurface& at) const;
+  void set_plastic_rates(const Step& step, const OnSurface& at, double left, Point& end) const;
   ElasticTrial elastic_trial(const Step& step) const;
   Point advance(const Point& point, const Vector4& deps, const Part& part, double guess) const;
-  Vector4 log_level_rate(const Point& point) const;
-  Part elastic_part(const Point& start, const Vector4& deps) const;
+  Point end_of(const Step& step, const ElasticTrial& trial, double guess) const;
+  LevelChange level_change(const Point& point) const;
+  bool loads(const Step& still, const Step& whole) const;
+  Part elastic_part(Point start, const Vector4& deps) const;
   PlasticIncrement plastic_increment(const Point& start, const Vector4& deps) const;
   Point extrapolated(const Point& once, const Point& twice) const;
   Point start_of(const PointIn<4>& in) const;

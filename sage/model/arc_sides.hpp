@@ -31,7 +31,9 @@ class ArcSides {
   std::map<std::pair<int, int>, Vector2> centres_;  // by the nodes at the ends, smaller first
 };
 
-// Whether an element has a side that is curved and follows no circle: a parabola in every mesh that is made of this one.
+// Whether a middle node lies off the straight line on a side of the outline or between two groups.
+bool has_curved_sides(const Model& model);
+// The same of sides that follow no circle: they are parabolas in every mesh that is made of this one.
 bool has_parabolic_sides(const Model& model);
 
 }  // namespace sage

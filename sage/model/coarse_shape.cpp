@@ -1,9 +1,6 @@
 #include "sage/model/coarse_shape.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "sage/model/model.hpp"
 
 namespace sage {
 
@@ -41,23 +38,6 @@ Vector2 CoarseShape::at(const Place& q) const {
     if (middle[k]) point += bubble[k] * (*middle[k] - 0.5 * (corner[k] + corner[next]));
   }
   return point;
-}
-
-bool has_curved_sides(const Model& model, const std::function<bool(int, int)>& left_out) {
-  constexpr double kStraight = 1e-9;
-  for (const Group& group : model.groups) {
-    if (!group.entry->fills_area()) continue;
-    for (int e = 0; e < group.elements(); ++e)
-      for (const auto& edge : group.element->edges()) {
-        if (edge.size() != 3) continue;
-        const int* nodes = group.nodes_of(e);
-        const Vector2 a = model.mesh.x.col(nodes[edge[0]]), along = model.mesh.x.col(nodes[edge[1]]) - a,
-                      off = model.mesh.x.col(nodes[edge[2]]) - a;
-        if (std::abs(along.x() * off.y() - along.y() * off.x()) <= kStraight * along.squaredNorm()) continue;
-        if (!left_out || !left_out(nodes[edge[0]], nodes[edge[1]])) return true;
-      }
-  }
-  return false;
 }
 
 std::array<double, 4> corner_shares(int corners, const Place& q) {

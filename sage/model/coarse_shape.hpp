@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <optional>
 
 #include "sage/core/types.hpp"
@@ -25,11 +24,6 @@ struct CoarseShape {
   bool curved() const;
   Vector2 at(const Place& q) const;
 };
-
-struct Model;
-// Whether a middle node lies off the straight line between its side's ends.  left_out, if given: sides, by the nodes at
-// their ends, that don't count.
-bool has_curved_sides(const Model& model, const std::function<bool(int, int)>& left_out = {});
 
 // Share of each corner in a place: linear in a triangle, bilinear in a quadrilateral.
 std::array<double, 4> corner_shares(int corners, const Place& q);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/model/coarse_shape.hpp"
+#include "sage/model/arc_sides.hpp"
 
 namespace sage {
 
