@@ -1,29 +1,33 @@
 #include "sage/exchange/boundary_edges.hpp"
 
 #include <algorithm>
-#include <map>
+
+#include "sage/model/solid_edges.hpp"
 
 namespace sage {
 
 std::vector<BoundaryEdge> boundary_edges(const Model& model) {
-  std::map<std::pair<int, int>, int> uses;
-  std::vector<BoundaryEdge> all;
+  const auto counts = [&](std::size_t g) { return model.groups[g].solid() && !model.groups[g].overlay; };
+  const SolidEdges solid_edges(model, counts);
+  const auto solids_at = [&](int a, int z) {
+    const auto [first, last] = std::minmax(a, z);
+    return std::ranges::count(solid_edges.at(first), last, &SolidEdge::other);
+  };
+  std::vector<BoundaryEdge> outline;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
-    if (!group.solid() || group.overlay) continue;
+    if (!counts(g)) continue;
     for (int e = 0; e < group.elements(); ++e) {
       const auto& edges = group.element->edges();
       for (std::size_t i = 0; i < edges.size(); ++i) {
-        BoundaryEdge edge{static_cast<int>(g), e, static_cast<int>(i), {}};
-        for (int local : edges[i]) edge.nodes.push_back(group.nodes_of(e)[local]);
-        ++uses[std::minmax(edge.nodes[0], edge.nodes[1])];
-        all.push_back(std::move(edge));
+        const int* const nodes = group.nodes_of(e);
+        if (solids_at(nodes[edges[i][0]], nodes[edges[i][1]]) > 1) continue;
+        BoundaryEdge& edge = outline.emplace_back(static_cast<int>(g), e, static_cast<int>(i));
+        for (int local : edges[i]) edge.nodes.push_back(nodes[local]);
       }
     }
   }
-  std::erase_if(
-      all, [&](const BoundaryEdge& edge) { return uses.at(std::minmax(edge.nodes[0], edge.nodes[1])) > 1; });
-  return all;
+  return outline;
 }
 
 std::string support_name(const Activity& activity, const BoundaryEdge& edge) {

@@ -9,7 +9,7 @@ namespace sage {
 
 struct BoundaryEdge {
   int group = 0, element = 0, edge = 0;  // local
-  std::vector<int> nodes;                // both corners, then mid-side nodes in order
+  std::vector<int> nodes{};              // both corners, then mid-side nodes in order
 };
 
 // Edges that belong to one solid element only.

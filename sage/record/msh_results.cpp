@@ -80,8 +80,36 @@ void add_node_views(OutFile& file, MshForm form, const Model& model, const Solut
 // From [xx yy zz xy yz xz] to rows of the matrix.
 constexpr std::array<std::size_t, 9> kMatrix{0, 3, 5, 3, 1, 4, 5, 4, 2};
 
+void add_matrix(View& view, const double* value) {
+  for (std::size_t c : kMatrix) view.add(value[c]);
+  view.end_row();
+}
+
+// Of each node its entry, -1 where it has none; empty where a node has more than one.
+std::vector<int> entry_of_nodes(const Model& model, const NodalLayout& layout) {
+  std::vector<int> entry(static_cast<std::size_t>(model.mesh.nodes()), -1);
+  for (int i = 0; i < layout.entries(); ++i)
+    if (std::exchange(entry[layout.node[i]], i) >= 0) return {};
+  return entry;
+}
+
+// Where no node has two values: a quarter of what the nodes of every solid take.
+void add_tensor_of_nodes(OutFile& file, MshForm form, const Model& model, const std::vector<int>& entries,
+                         const VtkArray& array, const Step& step) {
+  const auto& values = std::get<std::vector<double>>(array.values);
+  const std::vector<double> none(6, std::numeric_limits<double>::quiet_NaN());
+  View view(file, form, "NodeData", view_name(*array.field, array.name, model.units), step, 9, entries.size(), 10);
+  for (std::size_t node = 0; node < entries.size(); ++node) {
+    view.add(model.mesh.number[node]);
+    add_matrix(view, entries[node] < 0 ? none.data() : &values[static_cast<std::size_t>(entries[node]) * 6]);
+  }
+  view.close();
+}
+
 void add_tensor_view(OutFile& file, MshForm form, const Model& model, const NodalLayout& layout,
                      const VtkArray& array, const Step& step) {
+  if (const std::vector<int> entries = entry_of_nodes(model, layout); !entries.empty())
+    return add_tensor_of_nodes(file, form, model, entries, array, step);
   const auto& values = std::get<std::vector<double>>(array.values);
   std::size_t rows = 0, nodes = 0;  // nodes: the most of one element
   for (std::size_t g = 0; g < model.groups.size(); ++g) {

@@ -2,8 +2,9 @@
 // needs text: of binary files it reads only those whose elements have the numbers 1, 2, 3 ...
 //
 //   $NodeData         fields of nodes, at every node
-//   $ElementNodeData  stress and strain [xx xy xz, yx yy yz, zx zy zz] at the nodes of every solid, averaged over
-//                     the elements of the same material; the shear strain is the engineering gamma, in xy and yx
+//                     and stress and strain [xx xy xz, yx yy yz, zx zy zz], averaged over the elements of the same
+//                     material; the shear strain is the engineering gamma, in xy and yx
+//   $ElementNodeData  stress and strain where bodies that share a node have two values there: at the nodes of every solid
 //   $ElementData      other fields of integration points: plain means over an element's points.  Every element of
 //                     the file has a line, with nan where the field does not apply: meshio refuses less
 // A view is called after its field, with unit and sign; a field of two numbers is two views.  Time as StateTime
