@@ -36,23 +36,28 @@ constexpr const char* kDescription =
     "      sagefe check DECK       read and validate it, compute nothing\n"
     "      sagefe list elements    what a deck can ask for\n"
     "      sagefe list decks       decks that come with the program";
-constexpr const char* kFooter =
-    "Signs: compression is positive for stress and strain; displacements and forces\n"
-    "are positive along the axes.\n"
-    "Exit codes: 0 done; 1 command line; 2 input; 3 no equilibrium, singular or out\n"
-    "of memory; 4 output could not be written; 5 interrupted (Ctrl-C, SIGTERM), and\n"
-    "sagefe run --restart continues.";
+constexpr const char* kNoEquilibrium = "no equilibrium, singular or out of memory";
+constexpr const char* kBySignal = "interrupted (Ctrl-C, SIGTERM)";
+
+std::string footer(const std::string& three = kNoEquilibrium, const std::string& five = kBySignal) {
+  return "Signs: compression is positive for stress and strain; displacements and forces are positive along the "
+         "axes.\nExit codes: 0 done; 1 command line; 2 input; 3 " +
+         three + "; 4 output could not be written; 5 " + five + ".";
+}
 
 struct Entry {
   const char* name;
   const char* about;
   Command (*add_options)(CLI::App& parser, const Catalogue& catalogue);
-  bool takes_plugins = false;
-  bool (*apart)() = nullptr;  // true: it is done by a program beside this one
+  bool has_plugins = false;
+  bool (*apart)() = nullptr;       // true: it is done by a program beside this one
+  const char* three = kNoEquilibrium;   // what exit code 3 means
+  const char* five = kBySignal;  // and 5
 };
 
 constexpr Entry kCommands[] = {
-    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command, true},
+    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command, true,
+     nullptr, kNoEquilibrium, "interrupted (Ctrl-C, SIGTERM); sagefe run --restart continues"},
     {"check", "read and validate decks; compute nothing", check_command, true},
     {"echo", "show each card of a deck as it was read, under a column ruler", echo_command, true},
     {"align", "move the values of a deck into their columns, and name each move", align_command},
@@ -73,20 +78,20 @@ constexpr Entry kCommands[] = {
     {"convert", "write a deck, model file or mesh as deck (.dat), model file (.sage.toml), .msh or .inp",
      convert_command, true},
     {"verify", "compare cases with closed forms, converged references and published values", verify_command,
-     false, [] { return !studies().verify; }},
+     false, [] { return !studies().verify; }, "a row exceeds its gate"},
     {"compare", "compare two decks, or one deck with two settings: forces, stresses, lines, theory, pictures",
-     compare_command, true},
+     compare_command, true, nullptr, "a run is not complete, or less certain than --converge requires"},
     {"drive", "run laboratory tests (triaxial, oedometer, shear, ...) on a law without a mesh; CSV and plots",
-     drive_command, true},
+     drive_command, true, nullptr, "a path has no answer at some step, or --fit did not converge"},
     {"safety",
      "factor of safety by strength reduction: bracket with the reason for both ends, curve, mechanism",
-     safety_command, true},
+     safety_command, true, nullptr, "the bracket is not proved, or --converge did not reach its limit"},
     {"bounds", "rigorous lower and upper bounds on a collapse load or factor of safety by limit analysis",
-     bounds_command, true},
+     bounds_command, true, nullptr, "a bound is missing, or --safety has no proved bracket or contradicts the bounds"},
     {"sweep", "run many cases of one deck (grids, lists, random draws of its numbers); one table and a plot",
      sweep_command, true},
     {"stress", "sweep parameters to their limits: each result must be right, or an error must name the fault",
-     stress_command, false, [] { return !studies().stress; }},
+     stress_command, false, [] { return !studies().stress; }, "a row fails"},
     {"explain", "explain a message by its code: what it means and what helps", explain_command},
     {"completion", "print the completion script for bash, zsh or fish", completion_command},
 };
@@ -125,9 +130,15 @@ class HelpFormatter final : public CLI::Formatter {
 void describe(CLI::App& root) {
   root.formatter(std::make_shared<HelpFormatter>());
   root.description(kDescription);
-  root.footer(kFooter);
+  root.footer(footer());
   root.require_subcommand(1);
   root.set_version_flag("--version", "sagefe " SAGE_VERSION);
+}
+
+CLI::App* add_command(CLI::App& root, const Entry& entry) {
+  CLI::App* const parser = root.add_subcommand(entry.name, entry.about);
+  parser->footer(footer(entry.three, entry.five));
+  return parser;
 }
 
 Code code_of(const CLI::Error& error) {
@@ -238,7 +249,7 @@ void refuse_options_as_values(CLI::App& parser) {
 // A command's own and those that it shares with others.
 Command add_all_options(CLI::App& parser, const Entry& entry, const Catalogue& catalogue,
                         ScreenOptions& screen) {
-  if (entry.takes_plugins) add_plugin_options(parser);
+  if (entry.has_plugins) add_plugin_options(parser);
   Command execute = entry.add_options(parser, catalogue);
   add_screen_options(parser, screen);
   refuse_options_as_values(parser);
@@ -248,7 +259,7 @@ Command add_all_options(CLI::App& parser, const Entry& entry, const Catalogue& c
 // All that the command can ask for, with what the command line loads.
 Catalogue catalogue_for(const Entry& entry, int argc, char** argv, const AddToCatalogue& add) {
   const auto values = [&](const char* option) {
-    return entry.takes_plugins ? values_on(argc, argv, option) : std::vector<std::string>();
+    return entry.has_plugins ? values_on(argc, argv, option) : std::vector<std::string>();
   };
   Catalogue catalogue = full_catalogue(load_umats(values("--umat")));
   if (add) add(catalogue);
@@ -289,7 +300,7 @@ int run_command_line(int argc, char** argv, const AddToCatalogue& add) {
   Command execute;
   ScreenOptions options;
   for (const Entry& entry : kCommands) {
-    CLI::App* parser = root.add_subcommand(entry.name, entry.about);
+    CLI::App* parser = add_command(root, entry);
     if (&entry != chosen) continue;
     execute = add_all_options(*parser, entry, catalogue, options);
   }
@@ -324,7 +335,7 @@ void add_all_commands(CLI::App& root, const Catalogue& catalogue) {
   static ScreenOptions unused;  // the options outlive this function; nothing is parsed
   describe(root);
   for (const Entry& entry : kCommands)
-    add_all_options(*root.add_subcommand(entry.name, entry.about), entry, catalogue, unused);
+    add_all_options(*add_command(root, entry), entry, catalogue, unused);
 }
 
 }  // namespace app

@@ -2,6 +2,7 @@
 // state, loads that follow, restart, and what large strain rejects.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "elements/register_elements.hpp"
@@ -296,6 +297,54 @@ TEST(LargeStrainModels, AThickCylinderConvergesToTheClosedForm) {
     const double fine = std::abs(wall_pressure(lambda, 8) / exact - 1.0);
     EXPECT_LT(std::abs(wall_pressure(lambda, 16) / exact - 1.0), 1e-5) << lambda;
     EXPECT_GT(std::log2(coarse / fine), 3.7) << lambda;  // 4 by theory
+  }
+}
+
+// A cavity in a finite cylinder, B/A = 10, in clay that yields at the shear stress c and keeps its volume in plane strain: a ring
+// of first radius R lies at r = sqrt(R^2 + d), d = a^2 - A^2, and the difference of its stresses is 2 G ln(r^2/R^2), at most 2 c.
+// The pressure in the cavity is its integral over dr/r = R dR/r^2, here by Simpson's rule on both sides of the place where yield
+// begins.
+double cavity_pressure(double G, double c, double a) {
+  const double d = a * a - 1.0, B = 10.0;
+  const auto integral = [&](double from, double to) {
+    constexpr int kParts = 4000;
+    double sum = 0.0;
+    for (int i = 0; i <= kParts; ++i) {
+      const double R = from + (to - from) * i / kParts;
+      const double value = std::min(2.0 * G * std::log1p(d / (R * R)), 2.0 * c) * R / (R * R + d);
+      sum += (i == 0 || i == kParts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * value;
+    }
+    return sum * (to - from) / kParts / 3.0;
+  };
+  const double yields = std::clamp(std::sqrt(d / std::expm1(c / G)), 1.0, B);
+  return integral(1.0, yields) + integral(yields, B);
+}
+
+TEST(LargeStrainModels, ACavityInAFiniteCylinderHasThePressureOfItsIntegral) {
+  constexpr double kShear = 50.0, kNu = 0.499999;
+  constexpr int kElements = 48;
+  Grid grid{.x = {}, .y = {0.0, 0.1}};
+  for (int i = 0; i <= kElements; ++i) grid.x.push_back(std::pow(10.0, static_cast<double>(i) / kElements));
+  grid.input.geometry = Geometry::axisymmetric;
+  grid.input.materials = {{.law = "mohr_coulomb",
+                           .parameters = {{"youngs_modulus", 2.0 * kShear * (1.0 + kNu)},
+                                          {"poissons_ratio", kNu},
+                                          {"cohesion", 1.0},
+                                          {"friction_angle", 0.0},
+                                          {"dilation_angle", 0.0}}}};
+  grid.make_nodes();
+  grid.add_group(0, 1, "reduced");
+  grid.input.supports = {{.nodes = grid.line([](int, int) { return true; }), .y = FixityCode::fixed}};
+  StageInput stage{.increments = 50, .tolerance = 1e-9};
+  stage.supports = {{.nodes = grid.column(0), .x = FixityCode::fixed, .x_value = 1.0}};
+  grid.input.stages = {stage};
+  const WholeRun whole = run(grid.input);
+  ASSERT_TRUE(whole.completed()) << whole.failure;
+  for (const std::size_t increment : {4u, 24u, 49u}) {
+    const double a = 1.0 + static_cast<double>(increment + 1) / 50.0;
+    const double p = whole.reaction(whole.increments.at(increment), grid.column(0), 0) / (2.0 * kPi * a * 0.1);
+    const double exact = cavity_pressure(kShear, 1.0, a);
+    EXPECT_NEAR(p / exact, 1.0, 1e-4) << a << ' ' << p << ' ' << exact;
   }
 }
 

@@ -351,8 +351,8 @@ const std::vector<Row>& rows() {
       {"edge shear",
        {"", "load(s)", "edge shear"},
        [](Model& m) { first(m).pressures.push_back(edge(0.0, 0.0, 3.0)); }},
-      {"birth", {"", "birth(s)", "births and deaths"}, [](Model& m) { first(m).births.push_back(1); }},
-      {"death", {"", "death(s)", "births and deaths"}, [](Model& m) { first(m).deaths.push_back(1); }},
+      {"birth", {"", "birth(s)", "activated or removed"}, [](Model& m) { first(m).births.push_back(1); }},
+      {"death", {"", "death(s)", "activated or removed"}, [](Model& m) { first(m).deaths.push_back(1); }},
       {"stress at birth",
        {"", "initial stress", "initial stresses"},
        [](Model& m) {
