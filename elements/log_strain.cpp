@@ -21,7 +21,7 @@ Vector4 pushed_forward(const Vector4& c, const PlaneGradient& h) {
 }
 
 Vector4 stretch_of(const Vector4& e) {
-  const double across = e[0] - e[1], shear = 2.0 * e[3], x = std::hypot(across, shear);
+  const double across = e[0] - e[1], shear = 2.0 * e[3], x = std::sqrt(across * across + shear * shear);
   const double low = std::expm1(e[0] + e[1] - x);
   const double slope = (1.0 + low) * (x > 0.0 ? std::expm1(2.0 * x) / (2.0 * x) : 1.0);
   const double mean = low + slope * x;
@@ -29,7 +29,7 @@ Vector4 stretch_of(const Vector4& e) {
 }
 
 bool half_log(const Vector4& c, Vector4& e) {
-  const double across = 0.5 * (c[0] - c[1]), r = std::hypot(across, c[3]), low = 0.5 * (c[0] + c[1]) - r;
+  const double across = 0.5 * (c[0] - c[1]), r = std::sqrt(across * across + c[3] * c[3]), low = 0.5 * (c[0] + c[1]) - r;
   if (!(low > -1.0) || !(c[2] > -1.0)) return false;
   const double slope = r > 0.0 ? std::log1p(2.0 * r / (1.0 + low)) / (2.0 * r) : 1.0 / (1.0 + low);
   const double mean = std::log1p(low) + slope * r;

@@ -217,6 +217,7 @@ void Drawing::read_areas(const toml::table& root) {
         for (const toml::node& hole : *list) area.holes.push_back(read_outline(hole));
     area.size = real_of(values_, *one, "size", values_.units.length);
     area_material_.push_back(material_of(values_, *one, "material"));
+    area_second_material_.push_back(material_of(values_, *one, "second_material"));
     section_.areas.push_back(area);
     areas_.push_back(one);
   }
@@ -257,13 +258,14 @@ void Drawing::add_node(int node, const SourcePosition& where) {
 }
 
 int Drawing::add_group(const std::string& name, const std::string& of, double element, int formulation,
-                       int material, const SourcePosition& where) {
+                       int material, const SourcePosition& where, int second_material) {
   ++group_;
   std::vector<NewField> card{{"number", static_cast<double>(group_), {}, {}},
                              {"element", element, {}, {}},
                              {"formulation", static_cast<double>(formulation), {}, {}},
                              {"material", static_cast<double>(material), {}, {}}};
   if (!name.empty()) card.push_back({"name", 0.0, {}, name});
+  if (second_material != 0) card.push_back({"second_material", static_cast<double>(second_material), {}, {}});
   out_.add("group", where, card);
   values_.groups.by_name.try_emplace(name, group_);
   values_.groups.drawn[of].push_back(group_);
@@ -283,8 +285,8 @@ void Drawing::add_areas() {
   for (std::size_t a = 0; a < mesh_.areas.size(); ++a) {
     const SourcePosition where = values_.where(*areas_[a]);
     const std::string& name = section_.areas[a].name;
-    const int group =
-        add_group(name, name, element_code_, static_cast<int>(formulation_), area_material_[a], where);
+    const int group = add_group(name, name, element_code_, static_cast<int>(formulation_), area_material_[a],
+                                where, area_second_material_[a]);
     area_group_.push_back(group);
     first_element_.push_back(element_ + 1);
     const std::vector<int>& nodes = mesh_.areas[a].nodes;
@@ -493,6 +495,20 @@ std::vector<int> Drawing::nodes_along(const toml::node& node) {
   for (const int one : mesh_.lines[found].nodes) numbers.push_back(number_of(one));
   std::sort(numbers.begin(), numbers.end());
   return numbers;
+}
+
+std::vector<int> Drawing::with_unknown(std::vector<int> nodes, const std::string& unknown) const {
+  if (entry_ == nullptr) return nodes;
+  const auto is_wanted = [&](const ElementUnknown& one) { return one.field.name == unknown; };
+  const auto found = std::ranges::find_if(entry_->unknowns, is_wanted);
+  if (found == entry_->unknowns.end() || found->nodes.empty()) return nodes;
+  std::set<int> have;
+  const auto size = static_cast<std::size_t>(mesh_.nodes_per_element());
+  for (const AreaMesh& area : mesh_.areas)
+    for (std::size_t at = 0; at < area.nodes.size(); at += size)
+      for (const int local : found->nodes) have.insert(number_of(area.nodes[at + static_cast<std::size_t>(local)]));
+  std::erase_if(nodes, [&](int node) { return !have.contains(node); });
+  return nodes;
 }
 
 std::vector<DrawnEdge> Drawing::edges_along(const toml::node& node, const toml::node* side) {

@@ -36,6 +36,8 @@ class Drawing {
   // Numbers of the nodes at a point or along a line, by name.  Empty, and an error, where there is none.
   std::vector<int> nodes_at(const toml::node& point);
   std::vector<int> nodes_along(const toml::node& line);
+  // Of those nodes the ones that have this unknown, where elements of areas have it at some nodes only.
+  std::vector<int> with_unknown(std::vector<int> nodes, const std::string& unknown) const;
   // Edges of bodies along a line, on its left, its right, or the only side where there are any.
   std::vector<DrawnEdge> edges_along(const toml::node& line, const toml::node* side);
 
@@ -79,7 +81,7 @@ class Drawing {
   int interface_material(const Line& line, int area);
   // A group's card and its elements' cards, `size` nodes each.
   int add_group(const std::string& name, const std::string& of, double element, int formulation, int material,
-                const SourcePosition& where);
+                const SourcePosition& where, int second_material = 0);
   void add_element(int group, const std::vector<int>& nodes, const SourcePosition& where);
   int number_of(int node) const { return node_ + 1 + node; }
   SourcePosition place_of(SectionItem item, int index) const;
@@ -96,7 +98,7 @@ class Drawing {
   std::map<std::string, int> points_, line_index_;
   std::vector<Line> lines_;
   std::vector<const toml::table*> areas_;
-  std::vector<int> area_material_, area_group_, first_element_;  // by area
+  std::vector<int> area_material_, area_second_material_, area_group_, first_element_;  // by area
   std::map<std::string, std::vector<int>> joints_beside_;        // groups by name of the area
   std::map<std::pair<std::string, int>, int>
       joint_materials_;  // made by a factor, by line and material of the ground

@@ -203,7 +203,9 @@ std::vector<Table> drawn_tables() {
   area.keys = {
       drawn("name", Want::text, "name"), drawn("outline", Want::points, "points around it, or names of lines"),
       drawn("holes", Want::outlines, "outlines of holes"),
-      drawn("size", Want::real, "longest edge in it", "length"), drawn("material", Want::material, "material")};
+      drawn("size", Want::real, "longest edge in it", "length"),
+      drawn("material", Want::material, "material"),
+      drawn("second_material", Want::material, "material of the second law, of elements that have two: its pore water")};
   Table bar{"bar", "", "An anchor, strut or spring from point to point.", true, {}};
   bar.keys = {drawn("name", Want::text, "name"),
               drawn("from", Want::point, "its first point"),

@@ -199,7 +199,9 @@ bool Reader::add_at_place(const toml::table& one, const Table& cards, int owner)
   if (point == nullptr && line == nullptr) return false;
   const toml::node& place = point != nullptr ? *point : *line;
   if (!is_drawn(place)) return true;
-  const std::vector<int> nodes = point != nullptr ? drawing_->nodes_at(place) : drawing_->nodes_along(place);
+  std::vector<int> nodes = point != nullptr ? drawing_->nodes_at(place) : drawing_->nodes_along(place);
+  if (const toml::node* unknown = one.get("unknown"))
+    nodes = drawing_->with_unknown(std::move(nodes), unknown->value_or(std::string()));
   std::vector<NewField> card = values_.fields(one, cards, {"first", "last", "step"});
   card.insert(card.begin(), {"first", 0.0, values_.where(place), {}});
   for (const int node : nodes) {
