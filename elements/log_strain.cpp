@@ -29,7 +29,8 @@ Vector4 stretch_of(const Vector4& e) {
 }
 
 bool half_log(const Vector4& c, Vector4& e) {
-  const double across = 0.5 * (c[0] - c[1]), r = std::sqrt(across * across + c[3] * c[3]), low = 0.5 * (c[0] + c[1]) - r;
+  const double across = 0.5 * (c[0] - c[1]), r = std::sqrt(across * across + c[3] * c[3]),
+               low = 0.5 * (c[0] + c[1]) - r;
   if (!(low > -1.0) || !(c[2] > -1.0)) return false;
   const double slope = r > 0.0 ? std::log1p(2.0 * r / (1.0 + low)) / (2.0 * r) : 1.0 / (1.0 + low);
   const double mean = std::log1p(low) + slope * r;

@@ -12,9 +12,9 @@ namespace sage {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kOnSurface = 1e-12;   // of p_c: what rounding leaves outside
-constexpr double kIsotropic = 1e-13;   // of p_c: a deviator below has no direction
-constexpr double kAngle = 1e-12;       // of the place on the surface; rounding leaves less where the surface is near
+constexpr double kOnSurface = 1e-12;  // of p_c: what rounding leaves outside
+constexpr double kIsotropic = 1e-13;  // of p_c: a deviator below has no direction
+constexpr double kAngle = 1e-12;  // of the place on the surface; rounding leaves less where the surface is near
 constexpr double kAngleDigits = 1e-7;  // a last correction of Newton's method, which doubles the digits
 constexpr int kRounds = 200;
 constexpr double kNearSurface = 1e-10;  // of ln(level)
@@ -102,7 +102,8 @@ double exp_less_1(double x) {
 double log_1_plus(double x) {
   if (!(std::abs(x) < 0.1)) return std::log1p(x);
   const double y = x / (2.0 + x), z = y * y;
-  return 2.0 * y * (1.0 + z * (1.0 / 3 + z * (1.0 / 5 + z * (1.0 / 7 + z * (1.0 / 9 + z * (1.0 / 11 + z / 13))))));
+  return 2.0 * y *
+         (1.0 + z * (1.0 / 3 + z * (1.0 / 5 + z * (1.0 / 7 + z * (1.0 / 9 + z * (1.0 / 11 + z / 13))))));
 }
 
 // The mean of exp over [0, x], (exp(x) - 1)/x, and its derivative.
@@ -161,8 +162,8 @@ const Vector4 kVolumeRate(-1.0, -1.0, -1.0, 0.0);  // of the volume, compression
 struct ModifiedCamClay::Point {
   Vector4 s = Vector4::Zero();  // deviator
   Matrix4 s_rate = Matrix4::Zero();
-  double p = 0.0, p_c = 0.0, v = 0.0;     // v: specific volume
-  double log_p = 0.0, log_c = 0.0;        // ln of p and p_c over the p at the start of the update
+  double p = 0.0, p_c = 0.0, v = 0.0;  // v: specific volume
+  double log_p = 0.0, log_c = 0.0;     // ln of p and p_c over the p at the start of the update
   Vector4 log_p_rate = Vector4::Zero(), log_c_rate = Vector4::Zero(), log_v_rate = Vector4::Zero();
   double log_least = 0.0;  // of the least p, likewise
   double shear = 0.0, plastic_volume = 0.0;
@@ -184,12 +185,13 @@ struct ModifiedCamClay::Part {
 // A step from a point on.  Volume is compression positive.
 struct ModifiedCamClay::Step {
   const Point& from;
-  Vector4 e;  // deviator of the strain increment, tensor components
+  Vector4 e;                     // deviator of the strain increment, tensor components
   double length, along, across;  // |e|, and the parts of the deviator s at the start along e and normal to it
   Matrix4 e_rate;
   double volume;
   Vector4 volume_rate;
-  double share, log_share, square;  // at the start: p/p_c, its ln, and the square of q/(M p) of a surface through there
+  double share, log_share,
+      square;             // at the start: p/p_c, its ln, and the square of q/(M p) of a surface through there
   double kappa, harden;   // kappa/v and (lambda - kappa)/v, v the mean over the step
   Vector4 stiffer;        // rate of ln v
   double elastic_growth;  // ln(p/p0) of an elastic step, without the floor
@@ -474,7 +476,8 @@ ModifiedCamClay::Point ModifiedCamClay::plastic_end(const Step& step, const OnSu
   end.p = at.p_c * at.share;
   end.log_c += at.hardening;
   end.log_p = end.log_c + at.log_share;
-  const double left = at.has_direction ? at.q / at.q_trial : M * M * at.p_c / (6.0 * at.G * at.x + M * M * at.p_c);
+  const double left =
+      at.has_direction ? at.q / at.q_trial : M * M * at.p_c / (6.0 * at.G * at.x + M * M * at.p_c);
   end.s = left * trial_of(step, at.G);
   if (end.has_rates) set_plastic_rates(step, at, left, end);
   end.status = PointStatus::yielded;
@@ -535,7 +538,8 @@ ModifiedCamClay::ElasticTrial ModifiedCamClay::elastic_trial(const Step& step) c
   return trial;
 }
 
-ModifiedCamClay::Point ModifiedCamClay::end_of(const Step& step, const ElasticTrial& trial, double guess) const {
+ModifiedCamClay::Point ModifiedCamClay::end_of(const Step& step, const ElasticTrial& trial,
+                                               double guess) const {
   Point end = trial.level <= 1.0 + kOnSurface ? elastic_end(step, trial.at)
                                               : plastic_end(step, return_to_surface(step, trial, guess));
   end.kappa = step.kappa;
@@ -569,8 +573,8 @@ bool ModifiedCamClay::loads(const Step& still, const Step& whole) const {
   const ElasticTrial now = elastic_trial(still);
   if (!(now.level > 1.0 - kNearSurface)) return false;
   const LevelChange level = level_change(still.from);
-  const double change = level.by_log_p * whole.volume / still.kappa +
-                        2.0 * now.at.G * contract(level.by_s, whole.e);
+  const double change =
+      level.by_log_p * whole.volume / still.kappa + 2.0 * now.at.G * contract(level.by_s, whole.e);
   return change >= -kOnSurface;
 }
 
@@ -697,8 +701,8 @@ Outcome ModifiedCamClay::update(const PointIn<4>& in, PointOut<4>& out) const {
     out.h1[kPlasticVolume] += end.plastic_volume;
   }
   const double p = end.p;
-  if (!(end.log_p < kMostGrowth && std::isfinite(p) && end.s.allFinite() && end.s_rate.allFinite() && end.log_p_rate.allFinite() &&
-        std::isfinite(end.p_c))) {
+  if (!(end.log_p < kMostGrowth && std::isfinite(p) && end.s.allFinite() && end.s_rate.allFinite() &&
+        end.log_p_rate.allFinite() && std::isfinite(end.p_c))) {
     std::copy(in.h0.begin(), in.h0.end(), out.h1.begin());
     return Outcome::cut_step;
   }

@@ -40,7 +40,8 @@ constexpr const char* kNoEquilibrium = "no equilibrium, singular or out of memor
 constexpr const char* kBySignal = "interrupted (Ctrl-C, SIGTERM)";
 
 std::string footer(const std::string& three = kNoEquilibrium, const std::string& five = kBySignal) {
-  return "Signs: compression is positive for stress and strain; displacements and forces are positive along the "
+  return "Signs: compression is positive for stress and strain; displacements and forces are positive along "
+         "the "
          "axes.\nExit codes: 0 done; 1 command line; 2 input; 3 " +
          three + "; 4 output could not be written; 5 " + five + ".";
 }
@@ -50,14 +51,14 @@ struct Entry {
   const char* about;
   Command (*add_options)(CLI::App& parser, const Catalogue& catalogue);
   bool has_plugins = false;
-  bool (*apart)() = nullptr;       // true: it is done by a program beside this one
-  const char* three = kNoEquilibrium;   // what exit code 3 means
-  const char* five = kBySignal;  // and 5
+  bool (*apart)() = nullptr;           // true: it is done by a program beside this one
+  const char* three = kNoEquilibrium;  // what exit code 3 means
+  const char* five = kBySignal;        // and 5
 };
 
 constexpr Entry kCommands[] = {
-    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command, true,
-     nullptr, kNoEquilibrium, "interrupted (Ctrl-C, SIGTERM); sagefe run --restart continues"},
+    {"run", "compute decks; listing, CSV and reports go to the output folder", run_command, true, nullptr,
+     kNoEquilibrium, "interrupted (Ctrl-C, SIGTERM); sagefe run --restart continues"},
     {"check", "read and validate decks; compute nothing", check_command, true},
     {"echo", "show each card of a deck as it was read, under a column ruler", echo_command, true},
     {"align", "move the values of a deck into their columns, and name each move", align_command},
@@ -87,7 +88,8 @@ constexpr Entry kCommands[] = {
      "factor of safety by strength reduction: bracket with the reason for both ends, curve, mechanism",
      safety_command, true, nullptr, "the bracket is not proved, or --converge did not reach its limit"},
     {"bounds", "rigorous lower and upper bounds on a collapse load or factor of safety by limit analysis",
-     bounds_command, true, nullptr, "a bound is missing, or --safety has no proved bracket or contradicts the bounds"},
+     bounds_command, true, nullptr,
+     "a bound is missing, or --safety has no proved bracket or contradicts the bounds"},
     {"sweep", "run many cases of one deck (grids, lists, random draws of its numbers); one table and a plot",
      sweep_command, true},
     {"stress", "sweep parameters to their limits: each result must be right, or an error must name the fault",
@@ -334,8 +336,7 @@ void take_no_signal_for_large_files() {
 void add_all_commands(CLI::App& root, const Catalogue& catalogue) {
   static ScreenOptions unused;  // the options outlive this function; nothing is parsed
   describe(root);
-  for (const Entry& entry : kCommands)
-    add_all_options(*add_command(root, entry), entry, catalogue, unused);
+  for (const Entry& entry : kCommands) add_all_options(*add_command(root, entry), entry, catalogue, unused);
 }
 
 }  // namespace app

@@ -112,7 +112,7 @@ class Deck {
   std::vector<ValuePlace> places;  // of the cards that have them
   Diagnostics diagnostics;         // warnings and notes of reading (errors throw InputError)
   std::vector<DeckArc> arcs;
-  std::vector<LeftOut> left_out;   // of a foreign deck, when it was given the meaning of this program's cards
+  std::vector<LeftOut> left_out;  // of a foreign deck, when it was given the meaning of this program's cards
 
   // A number of no deck, which stands for a blank field.
   static double blank_number() { return std::bit_cast<double>(blank_bits); }

@@ -22,8 +22,8 @@ std::vector<BoundaryEdge> boundary_edges(const Model& model) {
       for (std::size_t i = 0; i < edges.size(); ++i) {
         const int* const nodes = group.nodes_of(e);
         if (solids_at(nodes[edges[i][0]], nodes[edges[i][1]]) > 1) continue;
-        BoundaryEdge& edge = outline.emplace_back(static_cast<int>(g), e, static_cast<int>(i));
-        for (int local : edges[i]) edge.nodes.push_back(nodes[local]);
+        outline.push_back({static_cast<int>(g), e, static_cast<int>(i)});
+        for (int local : edges[i]) outline.back().nodes.push_back(nodes[local]);
       }
     }
   }

@@ -248,7 +248,8 @@ class InpWriter {
     if (stage.resets_displacements)
       warning("stage " + std::to_string(stage.number) + ": its reset of displacements is left out");
     if (!stage.births.empty() || !stage.deaths.empty())
-      warning("stage " + std::to_string(stage.number) + ": groups that are activated or removed in it are left out");
+      warning("stage " + std::to_string(stage.number) +
+              ": groups that are activated or removed in it are left out");
     if (!stage.initials.empty())
       warning("stage " + std::to_string(stage.number) +
               ": initial stresses, histories and changes of laws are left out");

@@ -115,7 +115,8 @@ struct Subdivision::SplitElement {
   bool has_edge(int side) const { return !group->interface() || side % 2 == 0; }
 };
 
-Subdivision::Subdivision(Work& b) : b_(&b), nodes_(b.model.mesh), inner_(b.model), arcs_(b.model.mesh), edges_(b.model, false) {
+Subdivision::Subdivision(Work& b)
+    : b_(&b), nodes_(b.model.mesh), inner_(b.model), arcs_(b.model.mesh), edges_(b.model, false) {
   for (const Stage& stage : b.model.stages)
     for (const EdgeLoad& load : stage.pressures) loaded_.emplace(load.group, load.element);
   for (const Group& group : b.model.groups) {
@@ -316,8 +317,7 @@ void Subdivision::divide_arcs() {
     for (std::size_t i = 0; i < arc.ends.size(); ++i) {
       const int a = arc.ends[i];
       ends.push_back(a);
-      const EdgeTable::Edge* const edge =
-          i + 1 < arc.ends.size() ? edges_.find(a, arc.ends[i + 1]) : nullptr;
+      const EdgeTable::Edge* const edge = i + 1 < arc.ends.size() ? edges_.find(a, arc.ends[i + 1]) : nullptr;
       std::vector<OnEdge> inside;
       for (int l = edge != nullptr ? edge->first : -1; l >= 0; l = edges_.link(l).next)
         if (corner[edges_.link(l).node] != 0) inside.push_back(edges_.link(l));

@@ -506,7 +506,8 @@ std::vector<int> Drawing::with_unknown(std::vector<int> nodes, const std::string
   const auto size = static_cast<std::size_t>(mesh_.nodes_per_element());
   for (const AreaMesh& area : mesh_.areas)
     for (std::size_t at = 0; at < area.nodes.size(); at += size)
-      for (const int local : found->nodes) have.insert(number_of(area.nodes[at + static_cast<std::size_t>(local)]));
+      for (const int local : found->nodes)
+        have.insert(number_of(area.nodes[at + static_cast<std::size_t>(local)]));
   std::erase_if(nodes, [&](int node) { return !have.contains(node); });
   return nodes;
 }

@@ -99,7 +99,7 @@ class Drawing {
   std::vector<Line> lines_;
   std::vector<const toml::table*> areas_;
   std::vector<int> area_material_, area_second_material_, area_group_, first_element_;  // by area
-  std::map<std::string, std::vector<int>> joints_beside_;        // groups by name of the area
+  std::map<std::string, std::vector<int>> joints_beside_;  // groups by name of the area
   std::map<std::pair<std::string, int>, int>
       joint_materials_;  // made by a factor, by line and material of the ground
   const toml::table* mesh_at_ = nullptr;

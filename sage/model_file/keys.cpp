@@ -33,6 +33,7 @@ const std::vector<Change>& changes() {
       {"group", "element", Want::element},
       {"group", "formulation", Want::formulation},
       {"group", "material", Want::material},
+      {"group", "second_material", Want::material},
       {"group", "overlay", Want::flag},
       {"element", "group", Want::group},
       {"element", "n1", Want::nodes, "nodes"},
@@ -200,12 +201,13 @@ std::vector<Table> drawn_tables() {
       drawn("thickness", Want::real,
             "of the layer whose stiffness the joint has; left out, a tenth of the size", "length")};
   Table area{"area", "", "Ground of one material; it becomes a group of its name.", true, {}};
-  area.keys = {
-      drawn("name", Want::text, "name"), drawn("outline", Want::points, "points around it, or names of lines"),
-      drawn("holes", Want::outlines, "outlines of holes"),
-      drawn("size", Want::real, "longest edge in it", "length"),
-      drawn("material", Want::material, "material"),
-      drawn("second_material", Want::material, "material of the second law, of elements that have two: its pore water")};
+  area.keys = {drawn("name", Want::text, "name"),
+               drawn("outline", Want::points, "points around it, or names of lines"),
+               drawn("holes", Want::outlines, "outlines of holes"),
+               drawn("size", Want::real, "longest edge in it", "length"),
+               drawn("material", Want::material, "material"),
+               drawn("second_material", Want::material,
+                     "material of the second law, of elements that have two: its pore water")};
   Table bar{"bar", "", "An anchor, strut or spring from point to point.", true, {}};
   bar.keys = {drawn("name", Want::text, "name"),
               drawn("from", Want::point, "its first point"),

@@ -98,7 +98,8 @@ void add_tensor_of_nodes(OutFile& file, MshForm form, const Model& model, const 
                          const VtkArray& array, const Step& step) {
   const auto& values = std::get<std::vector<double>>(array.values);
   const std::vector<double> none(6, std::numeric_limits<double>::quiet_NaN());
-  View view(file, form, "NodeData", view_name(*array.field, array.name, model.units), step, 9, entries.size(), 10);
+  View view(file, form, "NodeData", view_name(*array.field, array.name, model.units), step, 9, entries.size(),
+            10);
   for (std::size_t node = 0; node < entries.size(); ++node) {
     view.add(model.mesh.number[node]);
     add_matrix(view, entries[node] < 0 ? none.data() : &values[static_cast<std::size_t>(entries[node]) * 6]);

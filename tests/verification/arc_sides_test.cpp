@@ -37,7 +37,8 @@ line = [
   {name = "outer", shape = "arc", points = ["b", "c"], centre = "centre"},
   {name = "bottom", points = ["a", "b"]},
   {name = "left", points = ["d", "c"]},
-)" + more + R"(]
+)" + more +
+         R"(]
 area = [{name = "ring", outline = ["bottom", "outer", "left", "inner"], material = "soil"}]
 fixity = [{line = "bottom", y = "fixed"}, {line = "left", x = "fixed"}]
 [[stage]]
@@ -104,7 +105,8 @@ TEST(ArcSides, LayersAndHighDegreesFollowTheCircle) {
 
 // A lining with joints to the ground has nodes of its own on the same circle.
 TEST(ArcSides, LiningsAndJointsFollowTheCircle) {
-  const std::string lining = R"(  {name = "lining", shape = "arc", points = [[1.5, 0], [0, 1.5]], centre = "centre", beam = "lining", interface = {side = "both", material = "joint"}},
+  const std::string lining =
+      R"(  {name = "lining", shape = "arc", points = [[1.5, 0], [0, 1.5]], centre = "centre", beam = "lining", interface = {side = "both", material = "joint"}},
 )";
   for (const char* const element : {"quad8", "quad4"}) {
     const Model model = model_of(ring(element, "automatic", lining), 2);
