@@ -498,7 +498,7 @@ TEST(Quantities, InterfacesAndStructuresAreNamed) {
   [[maybe_unused]] const auto& [length, force, stress, p_a, gamma_w] = one;
 }
 [[maybe_unused]] void known(const Mesh& one) {
-  [[maybe_unused]] const auto& [x, number, deck_nodes, made_between, reach] = one;
+  [[maybe_unused]] const auto& [x, number, deck_nodes, made_between, reach, arcs] = one;
 }
 [[maybe_unused]] void known(const Material& one) {
   [[maybe_unused]] const auto& [number, name, code, law_name, entry, parameters, unit_weight,
