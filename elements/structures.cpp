@@ -78,7 +78,7 @@ template <Release released = Release::none>
 std::vector<Choice> beam3_choices(std::string_view full_name, std::string_view halves_name) {
   Choice halves =
       with_force_at<BeamHalves<PlaneStrain, released>::force_at>(in_both<Released<released>::template Halves>(
-          {2, "halves", "two beam2 in a row: what every section that may yield gets"}, halves_name, 6));
+          {2, "halves", "two beam2 in a row, for every section that may yield"}, halves_name, 6));
   halves.formulation.yields = true;
   return {with_force_at<Beam3<PlaneStrain, released>::force_at>(in_both<Released<released>::template Three>(
               {1, "reduced", "two Gauss points: does not lock; may be curved"}, full_name, 2)),

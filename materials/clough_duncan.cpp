@@ -33,7 +33,7 @@ const std::vector<Parameter>& rows() {
       required("tensile_stiffness", Dimension::stress_per_length, "normal stiffness in tension k_nt"),
       required("failure_stiffness", Dimension::stress_per_length, "shear stiffness after slip k_sf"),
       optional("shear_rule", Dimension::none, "k_s at 0 start of increment, 1 middle, 2 exact hyperbola", 0.0),
-      optional("stress_floor", Dimension::none, "smallest sigma_n seen by k_s, as a fraction of p_a", 1e-6),
+      optional("stress_floor", Dimension::none, "smallest sigma_n for k_s, as a fraction of p_a", 1e-6),
       optional("unloading", Dimension::none, "0 reload linearly to the largest |tau|, 1 hyperbola at once",
                0.0),
       optional("slip_tangent", Dimension::none,

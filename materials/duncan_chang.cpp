@@ -5,7 +5,8 @@ namespace sage {
 std::vector<Parameter> duncan_chang_rows(VolumeRule volume) {
   std::vector<Parameter> r = hyperbolic_rows(volume);
   r.push_back(optional("largest_poissons_ratio", Dimension::none, "upper bound of Poisson's ratio", 0.49));
-  r.push_back(optional("stress_floor", Dimension::none, "smallest sigma_3 seen by the moduli, of p_a", 0.01));
+  r.push_back(
+      optional("stress_floor", Dimension::none, "smallest sigma_3 for the moduli, as a fraction of p_a", 0.01));
   r.push_back(optional("tangent", Dimension::none, "0 consistent (unsymmetric), 1 isotropic (symmetric)", 0.0));
   r.push_back(
       optional("principals", Dimension::none, "sigma_1, sigma_3 of 0 all three, 1 those in the plane", 0.0));

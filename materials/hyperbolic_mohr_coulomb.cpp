@@ -16,7 +16,8 @@ const std::vector<Parameter>& rows() {
     r.push_back(optional("tension_cut_off", Dimension::stress, "largest tension; -1 = the apex only", -1.0,
                          ParameterRole::tension_limit));
     r.push_back(optional("largest_poissons_ratio", Dimension::none, "upper bound of Poisson's ratio", 0.49));
-    r.push_back(optional("stress_floor", Dimension::none, "smallest sigma_3 seen by the moduli, of p_a", 0.01));
+    r.push_back(optional("stress_floor", Dimension::none,
+                         "smallest sigma_3 for the moduli, as a fraction of p_a", 0.01));
     r.push_back(
         optional("step_tolerance", Dimension::none, "relative error of a substep, by its Euler half", 1e-3));
     return r;

@@ -43,8 +43,8 @@ const std::vector<Parameter>& rows() {
                          ParameterRole::tension_limit));
     r.push_back(
         optional("band_width", Dimension::length,
-                 "of the band whose strains these are: falling strength then follows strain times element "
-                 "size over this; 0 = strain alone",
+                 "of the band whose strains these are: strength then decreases with strain times element "
+                 "size over this; 0 = with strain alone",
                  0.0));
     return r;
   }();

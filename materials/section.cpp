@@ -20,7 +20,7 @@ const std::vector<Parameter>& plate_rows() {
           "1 plate that goes on across the section: E/(1-nu^2), and hoop stiffness in axisymmetry; 0 strips "
           "side by side: E, nothing across",
           1.0),
-      optional("shear_share", Dimension::none, "part of the thickness that takes shear", kShearShare)};
+      optional("shear_share", Dimension::none, "part of the thickness that carries shear", kShearShare)};
   return rows;
 }
 

@@ -185,7 +185,7 @@ Command conform_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("--only", options->only, "run only checks whose name contains this text");
   add_umat_options(parser, *options);
   const CLI::Option* umats = parser.get_option("--umat");
-  parser.footer("Exit codes: 0 all checks hold, 1 the library can't be loaded, 3 a check fails.");
+  parser.footer("Exit codes: 0 all checks pass, 1 the library can't be loaded, 3 a check fails.");
   return [options, umats, &catalogue] {
     int worst = kOk;
     for (const std::string& text : umats->results()) worst = std::max(worst, try_umat(*options, text));

@@ -134,7 +134,7 @@ void add_mesh_options(CLI::App& parser, ForeignMeshOptions& mesh) {
   parser.add_option("--weight", mesh.unit_weight, "from a mesh: unit weight of all groups");
   parser.add_option("--water-weight", mesh.water_weight, "from a mesh: unit weight of water")
       ->check(number_in(0.0, 1e99, "a number from 0 to 1e99"));
-  add_use(parser, mesh, "fix", "NAME=x, NAME=y or NAME=xy holds the nodes of a curve, point or set");
+  add_use(parser, mesh, "fix", "NAME=x, NAME=y or NAME=xy supports the nodes of a curve, point or set");
   add_use(parser, mesh, "pressure", "NAME=VALUE applies a pressure to a curve, set or surface");
   add_use(parser, mesh, "force", "NAME=FX,FY applies a force to a point or a set of one node");
   add_use(parser, mesh, "beam", "NAME: a wall or lining along a curve or set");

@@ -135,8 +135,8 @@ Command echo_command(CLI::App& parser, const Catalogue&) {
   add_input_options(parser, options->input);
   parser.add_flag(
       "--names", options->names,
-      "list instead the names of the deck's layout: which the program uses, which the layout itself, "
-      "which are ignored or used by nothing, and which could be given too");
+      "list instead the names in the deck's layout: those that sagefe uses, those that only the layout uses, "
+      "those that are ignored or not used, and those that could be added");
   return [options] {
     if (options->names) {
       const std::string names = names_of(*options);

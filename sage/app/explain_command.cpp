@@ -124,7 +124,7 @@ int explain(const ExplainOptions& options) {
   for (const MessageEntry& message : wanted) print_whole(message);
   if (!wanted.empty()) return kOk;
   for (const MessageEntry& message : messages()) print_line(message);
-  fmt::print("sagefe explain CODE tells cause and cure; --search WORD looks in all texts\n");
+  fmt::print("sagefe explain CODE prints cause and cure; --search WORD searches all texts\n");
   return kOk;
 }
 

@@ -51,10 +51,11 @@ void add_formulation_option(CLI::App& parser, const std::string& flag, const std
 
 // What --picture takes, in words.
 inline constexpr const char* kPictureNames =
-    "conf or sigma_3, dev or sigma_1-sigma_3, SL (stress level), stress_yy, displacement, yielded; where water "
-    "flows head, velocity, stream_function, flow_net (head with its flow net), where it stands in soil "
-    "pore_pressure; any other "
-    "number of `sagefe list fields` or of a component of one, or a history variable of a law; may be repeated";
+    "conf or sigma_3, dev or sigma_1-sigma_3, SL (stress level), stress_yy, displacement, yielded; for "
+    "seepage head, velocity, stream_function, flow_net (head with its flow net); for soil with water "
+    "pore_pressure; any other field of `sagefe list fields` that is a number, a component of a field, or a "
+    "history "
+    "variable of a law; may be repeated";
 // --picture and --field, with what they are for; names are looked at by require_fields.
 void add_field_options(CLI::App& parser, std::vector<std::string>& pictures, std::vector<std::string>& fields,
                        const std::string& picture_words, const std::string& field_words);

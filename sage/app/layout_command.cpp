@@ -146,8 +146,9 @@ Command layout_command(CLI::App& parser, const Catalogue&) {
       "  sagefe echo old.dat --layout old.toml\nThe draft gives the reason for each guess: "
       "docs/manual/layout_guess.md\n");
   checking->footer(
-      "Exit codes as for sagefe check: 0 the deck reads, 2 it doesn't (with --strict: not without "
-      "warnings).\n");
+      "Exit codes as for sagefe check: 0 sagefe can read the deck, 2 it can't. With --strict, warnings also "
+      "give "
+      "2.\n");
   return [=] { return guessing->parsed() ? guess(*draft_options) : check(*check_options); };
 }
 

@@ -67,12 +67,11 @@ void list_fields(const Catalogue& catalogue) {
     }
   }
   fmt::print(
-      "and, of what a deck has:\n"
-      "      at nodes, where water flows: head, head_inflow, head_reaction, pressure_head (and of any other "
-      "unknown "
-      "the\n"
-      "      same three, by its name), stream_function\n"
-      "      at integration points, where there is water: pore_pressure, total_stress (xx yy zz xy)\n"
+      "and, depending on the deck:\n"
+      "      at nodes of flow elements: head, head_inflow, head_reaction, pressure_head, stream_function (any "
+      "other\n"
+      "      unknown has the same first three, with its own name)\n"
+      "      at integration points with water: pore_pressure, total_stress (xx yy zz xy)\n"
       "      at integration points the history variables of the deck's laws, by their names\n"
       "pictures, besides NAME and NAME_COMPONENT:\n"
       "      conf or sigma_3, dev or sigma_1-sigma_3, SL (stress level)\n"
@@ -210,7 +209,7 @@ void list_plugins(const Catalogue& catalogue) {
       text += fmt::format("{}{}", text.empty() ? fmt::format("; {} ", kind) : ", ", code);
     return text;
   };
-  fmt::print("plug-in, version and author; what it brings; its file\n");
+  fmt::print("plug-in, version and author; what it adds; its file\n");
   for (const Plugin& plugin : catalogue.plugins) {
     std::string fields;
     for (const std::string& field : plugin.fields) fields += (fields.empty() ? "; fields " : ", ") + field;

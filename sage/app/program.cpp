@@ -34,7 +34,7 @@ constexpr const char* kDescription =
     "Try:  sagefe new deck KIND    write a deck to start from\n"
     "      sagefe run DECK         compute a deck\n"
     "      sagefe check DECK       read and validate it, compute nothing\n"
-    "      sagefe list elements    what a deck can ask for\n"
+    "      sagefe list elements    elements that a deck can use\n"
     "      sagefe list decks       decks that come with the program";
 constexpr const char* kNoEquilibrium = "no equilibrium, singular or out of memory";
 constexpr const char* kBySignal = "interrupted (Ctrl-C, SIGTERM)";

@@ -339,7 +339,7 @@ Command run_command(CLI::App& parser, const Catalogue& catalogue) {
   parser.add_option("DECK", options->decks, "deck files")->required();
   parser.add_option("-o,--output", request.output.folder,
                     "folder for results (default: out), called STEM.lst, STEM.report1.csv, ...; STEM is the "
-                    "deck's name without its ending, or the name of its folder where it is called deck");
+                    "deck's name without its ending, or the name of its folder if the deck is called deck");
   parser.add_option("--solver", request.solver, "solver by name (see sagefe list solvers)")
       ->check(known_solver(catalogue));
   add_threads_option(parser, request.threads);

@@ -335,7 +335,7 @@ void add_state_fields(std::vector<FieldEntry>& rows) {
                   .least = 0.0});
   rows.push_back(
       {.name = "status",
-       .meaning = "what the point does",
+       .meaning = "state of the point (elastic, yielded, ...)",
        .value = PointField{[](const PointView& p, double* v) { *v = static_cast<double>(p.status); }},
        .form = FieldForm::word,
        .words = {"elastic", "unloading", "yielded", "slipping", "open", "apex", "cut_off"}});
@@ -377,8 +377,7 @@ void add_increment_fields(std::vector<FieldEntry>& rows) {
   add("converged", "1: in equilibrium", kInteger, false, [](const View& i) { return i.converged ? 1 : 0; });
   add("iterations", "iterations, those of cut steps included", kInteger, false,
       [](const View& i) { return i.iterations; });
-  add("relative_force", "out-of-balance force / force scale", kNumber, true,
-      [](const View& i) { return i.force; });
+  add("relative_force", "unbalanced force / force scale", kNumber, true, [](const View& i) { return i.force; });
   add("relative_displacement_change", "correction / increment", kNumber, true,
       [](const View& i) { return i.displacement; });
   add("relative_energy", "energy / first energy", kNumber, true, [](const View& i) { return i.energy; });
@@ -391,18 +390,18 @@ void add_increment_fields(std::vector<FieldEntry>& rows) {
         [k](const View& i) { return i.points[k]; });
   add("worst_node", "node that is farthest from equilibrium", kInteger, true,
       [](const View& i) { return i.worst_node; });
-  add("worst_component", "direction of that (0 x or r, 1 y or z; 2 and up: the further unknowns)",
+  add("worst_component",
+      "direction of the unbalanced force there (0 x or r, 1 y or z; 2 and up: the further unknowns)",
       FieldForm::word, true, [](const View& i) { return i.worst_component; });
   rows.back().words = {"x", "y"};
   add(
-      "worst_residual", "force out of balance there", kNumber, true,
+      "worst_residual", "unbalanced force at that node", kNumber, true,
       [](const View& i) { return i.worst_residual; }, Dimension::force);
   add("smallest_pivot_ratio", "smallest pivot / largest", kNumber, true,
       [](const View& i) { return i.pivot_ratio; });
   add("displacement_over_extent",
-      "difference of displacements along an axis / the model's extent along it, so far; blank where nobody "
-      "looked at all "
-      "displacements",
+      "difference of displacements along an axis / the model's extent along it, so far; blank if the "
+      "increment did not need all displacements",
       kNumber, true, [](const View& i) { return i.motion; });
   const auto name_in_csv = [&](const char* name, const char* column) {
     for (FieldEntry& row : rows)

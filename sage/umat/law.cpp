@@ -280,7 +280,7 @@ const std::vector<Parameter>& table() {
       {"components", Dimension::none, "NTENS: 4 (11 22 33 12) or 6 (and 13 23, whose strains are 0)"},
       {"state_variables", Dimension::none, "NSTATV; initial cards of kind 4 give their first values, else 0"},
       {"symmetric", Dimension::none,
-       "1: DDSDDE is symmetric in every state; 2: differences of the stress stand for it", 0.0, false},
+       "1: DDSDDE is symmetric in every state; 2: differences of the stress replace it", 0.0, false},
       {"threads_safe", Dimension::none, "1: may be called by several threads at once", 0.0, false}};
   return rows;
 }

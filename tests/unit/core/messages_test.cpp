@@ -70,15 +70,21 @@ TEST(Messages, AreThoseThatTheProgramMakes) {
 std::string manual() {
   Page page("Messages");
   page.prose(
-      "Every message ends in a code, such as `[S501]`. `sagefe explain S501` prints its entry on this page, "
-      "`sagefe explain` lists all codes, and `sagefe explain --search WORD` looks for a word in all texts. The "
-      "word error, warning or note comes before a message. `--strict` makes errors of warnings, and the code "
-      "stays the same. This page is written from `sage/messages/messages.cpp` "
-      "(`SAGE_WRITE_MANUAL=1 test_core --gtest_filter=Messages.*`).");
+      "This page explains every message of sagefe, for everyone who gets an error, a warning or a note. A "
+      "message "
+      "ends in a code, such as `[S501]`, by which you find its entry. `sagefe explain S501` prints the same "
+      "entry, "
+      "`sagefe explain` lists all codes, and `sagefe explain --search WORD` lists the messages whose texts "
+      "contain "
+      "a word. A *deck* is an input file, a *card* is one entry of it, such as a node, and a *layout* defines "
+      "which columns of a card hold which value. [How sagefe checks a deck](checks.md) explains the three "
+      "kinds "
+      "of messages. With `--strict` a warning counts as an error, but keeps its code.");
   page.prose(
-      "A new message names a code in the program. Where no entry has the same cause and cure, it gets a new "
-      "code "
-      "and an entry. A test holds both together.");
+      "For developers: a test writes this page from `sage/messages/messages.cpp` "
+      "(`SAGE_WRITE_MANUAL=1 test_core --gtest_filter=Messages.*`). A message with a new cause or remedy gets "
+      "a "
+      "new code and an entry there. The test checks that every code in the source has an entry.");
   const char* section = nullptr;
   for (const MessageEntry& message : messages()) {
     if (section_of(message) != section) page.heading(2, section = section_of(message));
