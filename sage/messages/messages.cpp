@@ -188,7 +188,7 @@ constexpr MessageEntry kMessages[] = {
      "The file breaks the rules of TOML: a bracket or quote is not closed, a key occurs twice, or a text is "
      "not in quotes.",
      "Correct the line in the message. Write FORMATs and expressions as texts in quotes. "
-     "docs/manual/own_layout.md shows every kind of line."},
+     "legacy_inputs/layouts/README.md shows every kind of line."},
     {"S142", "a FORMAT of a layout is wrong",
      "The FORMAT of a card breaks the rules of Fortran, or it does not agree with the fields that the card "
      "lists. Each name in the list fields needs one edit descriptor of its kind: I for an integer, F or E for "
@@ -199,13 +199,13 @@ constexpr MessageEntry kMessages[] = {
      "A key of the layout is unknown, is missing, or has a value of another kind. Or two entries contradict "
      "each other. sagefe rejects unknown keys, because a typing error would otherwise change how the deck is "
      "read.",
-     "Correct the entry on the line in the message. docs/manual/own_layout.md lists all keys with their "
-     "values."},
+     "Correct the entry on the line in the message. legacy_inputs/layouts/README.md lists all keys with "
+     "their values."},
     {"S146", "an expression of a layout is wrong",
      "A count, a condition or a value is an expression of fields of earlier cards. This one can't be read, "
      "uses a name that no earlier card has, or gives a text where a number is needed.",
      "Correct the expression. Write values as CARD.FIELD, texts in single quotes, and use the functions of "
-     "docs/manual/own_layout.md."},
+     "legacy_inputs/layouts/README.md."},
     {"S147", "a name of a layout has no meaning for the model",
      "sagefe builds the model from the names of cards and fields. Either it does not know this name, so that "
      "the values would be lost, or a card or field that every model needs is missing.",

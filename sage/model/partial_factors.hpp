@@ -1,4 +1,4 @@
-// Sets of partial factors on actions, effects of actions and strengths, as those of EN 1997-1.  docs/manual/safety.md
+// Sets of partial factors on actions, effects of actions and strengths, as those of EN 1997-1.  docs/manual/partial_factors.md
 #pragma once
 
 #include <string>
