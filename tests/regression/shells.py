@@ -149,7 +149,7 @@ def check_texts(folder):
         for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", text):
             expect(option in options or option in ("--install",), entry["code"], "names", option)
         # In prose sagefe is a subject: "sagefe reads", "sagefe then stops", "sagefe found".
-        prose = "also can cannot cut found itself must read then would wrote".split()
+        prose = "also can cannot cut did divide found itself must or read that then would wrote".split()
         for command in re.findall(r"\bsagefe ([a-z]+)", text):
             verb = command.endswith(("s", "ed")) or command in prose
             expect(verb or command in COMMANDS, entry["code"], "names sagefe", command)
