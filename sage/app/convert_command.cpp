@@ -91,11 +91,12 @@ int convert(const ConvertOptions& options, const Catalogue& catalogue) {
                                         : inp_text(model, model.diagnostics));
   if (to == ".inp") warn_of_results(options.to, model.diagnostics);
   if (!model.mesh.arcs.empty())
-    model.diagnostics.add({Severity::note,
-                           "S720",
-                           {model.file, 0, 0, 0},
-                           "the arcs of the drawing are left out: finer meshes of what is written don't follow them",
-                           {}});
+    model.diagnostics.add(
+        {Severity::note,
+         "S720",
+         {model.file, 0, 0, 0},
+         "the arcs of the drawing are left out: finer meshes of what is written don't follow them",
+         {}});
   print_diagnostics(model.diagnostics);
   if (Json* json = answer())
     *json = {{"from", json_text(options.from)},
