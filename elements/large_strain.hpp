@@ -9,6 +9,7 @@
 #include "elements/log_strain.hpp"
 #include "elements/solid.hpp"
 #include "sage/core/elastic_shear.hpp"
+#include "sage/math/exp_and_log.hpp"
 
 namespace sage {
 
@@ -100,8 +101,9 @@ class LargeStrain final : public Element {
     const std::size_t of_law = law.traits().history.size();
     std::array<Moved, kPoints> moved;
     Dilatation whole;
+    const Motion motion(in);
     for (std::size_t p = 0; p < kPoints; ++p)
-      if (!move(in, p, in.h0 + p * (of_law + kOwn) + of_law, moved[p], whole)) return Outcome::cut_step;
+      if (!move(motion, p, in.h0 + p * (of_law + kOwn) + of_law, moved[p], whole)) return Outcome::cut_step;
     Sums sums;
     if (out.K != nullptr) sums.clear();
     for (std::size_t p = 0; p < kPoints; ++p) {
@@ -129,6 +131,17 @@ class LargeStrain final : public Element {
   }
 
  private:
+  // Places of the nodes in the committed state, and how they move from there.
+  struct Motion {
+    Nodes x, y, dx, dy;
+    explicit Motion(const ElementIn& in) {
+      const Coordinates before = Coordinates::Map(in.x) + Coordinates::Map(in.u0), du = Coordinates::Map(in.du);
+      x = before.row(0).transpose();
+      y = before.row(1).transpose();
+      dx = du.row(0).transpose();
+      dy = du.row(1).transpose();
+    }
+  };
   // Gradients of the shape functions where the element is.
   struct Moved {
     Nodes gx, gy, hoop;
@@ -147,10 +160,10 @@ class LargeStrain final : public Element {
     // Scales the step and the whole deformation to the mean change of volume.  Small changes keep their digits.
     void take_mean(Moved& m) const {
       const double mean0 = growth0 / reference, mean = growth / reference;
-      const double log0 = std::log1p(mean0) - std::log1p(m.change0),
-                   log = std::log1p(mean) - std::log1p(m.change);
-      m.strained = scaled(m.total, std::expm1(log / 3.0));
-      m.step = scaled(m.step, std::expm1((log - log0) / 3.0));
+      const double log0 = log_1_plus(mean0) - log_1_plus(m.change0),
+                   log = log_1_plus(mean) - log_1_plus(m.change);
+      m.strained = scaled(m.total, exp_less_1(log / 3.0));
+      m.step = scaled(m.step, exp_less_1((log - log0) / 3.0));
       m.change0 = mean0;
       m.change = mean;
     }
@@ -166,24 +179,26 @@ class LargeStrain final : public Element {
   };
 
   // False where the element is turned inside out.
-  bool move(const ElementIn& in, std::size_t p, const double* history, Moved& m, Dilatation& whole) const {
+  bool move(const Motion& to, std::size_t p, const double* history, Moved& m, Dilatation& whole) const {
     const ShapeAt<Shape>& at = points_[p];
-    const Coordinates du = Coordinates::Map(in.du);
-    const Coordinates before = Coordinates::Map(in.x) + Coordinates::Map(in.u0);
-    const Matrix2 J0 = before.lazyProduct(at.dN), dJ = du.lazyProduct(at.dN), J = J0 + dJ;
-    const double det0 = determinant(J0), det = determinant(J);
-    const double r0 = before.row(0).dot(at.N), dr = du.row(0).dot(at.N), r = r0 + dr;
+    const auto dN_xi = at.dN.col(0), dN_eta = at.dN.col(1);
+    const double x_xi = to.x.dot(dN_xi), x_eta = to.x.dot(dN_eta), y_xi = to.y.dot(dN_xi),
+                 y_eta = to.y.dot(dN_eta);
+    const double dx_xi = to.dx.dot(dN_xi), dx_eta = to.dx.dot(dN_eta), dy_xi = to.dy.dot(dN_xi),
+                 dy_eta = to.dy.dot(dN_eta);
+    const double J_xx = x_xi + dx_xi, J_xy = x_eta + dx_eta, J_yx = y_xi + dy_xi, J_yy = y_eta + dy_eta;
+    const double det0 = x_xi * y_eta - x_eta * y_xi, det = J_xx * J_yy - J_xy * J_yx;
+    const double r0 = kRing ? to.x.dot(at.N) : 1.0, dr = kRing ? to.dx.dot(at.N) : 0.0, r = r0 + dr;
     if (!(det0 > 0.0) || !(det > 0.0) || (kRing && (!(r0 > 0.0) || !(r > 0.0)))) return false;
-    const Matrix2 inverse = (Matrix2() << J(1, 1), -J(0, 1), -J(1, 0), J(0, 0)).finished() / det;
-    m.gx.noalias() = at.dN.lazyProduct(inverse.col(0));
-    m.gy.noalias() = at.dN.lazyProduct(inverse.col(1));
+    m.gx = (J_yy * dN_xi - J_yx * dN_eta) / det;
+    m.gy = (J_xx * dN_eta - J_xy * dN_xi) / det;
     if constexpr (kRing)
       m.hoop = at.N / r;
     else
       m.hoop.setZero();
-    const Matrix2 inverse0 = (Matrix2() << J0(1, 1), -J0(0, 1), -J0(1, 0), J0(0, 0)).finished() / det0;
-    const Matrix2 h = dJ.lazyProduct(inverse0);
-    m.step = {h(0, 0), h(0, 1), h(1, 0), h(1, 1), kRing ? dr / r0 : 0.0};
+    // d(du)/dx by the committed places
+    m.step = {(dx_xi * y_eta - dx_eta * y_xi) / det0, (dx_eta * x_xi - dx_xi * x_eta) / det0,
+              (dy_xi * y_eta - dy_eta * y_xi) / det0, (dy_eta * x_xi - dy_xi * x_eta) / det0, dr / r0};
     const PlaneGradient last = gradient_from(history);
     m.total = m.strained = followed_by(last, m.step);
     m.change0 = last.volume_change();
@@ -204,7 +219,8 @@ class LargeStrain final : public Element {
   static bool total_strain(const PlaneGradient& total, double* eps) {
     Vector4 e;
     if (!half_log(pushed_forward(Vector4::Zero(), total), e)) return false;
-    Vector4::Map(eps) << e[0], e[1], e[2], 2.0 * e[3];
+    e[3] *= 2.0;
+    Vector4::Map(eps) = e;
     return true;
   }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "sage/math/exp_and_log.hpp"
+
 namespace sage {
 
 PlaneGradient followed_by(const PlaneGradient& first, const PlaneGradient& next) {
@@ -22,19 +24,20 @@ Vector4 pushed_forward(const Vector4& c, const PlaneGradient& h) {
 
 Vector4 stretch_of(const Vector4& e) {
   const double across = e[0] - e[1], shear = 2.0 * e[3], x = std::sqrt(across * across + shear * shear);
-  const double low = std::expm1(e[0] + e[1] - x);
-  const double slope = (1.0 + low) * (x > 0.0 ? std::expm1(2.0 * x) / (2.0 * x) : 1.0);
+  const double low = exp_less_1(e[0] + e[1] - x);
+  const double slope = (1.0 + low) * (x > 0.0 ? exp_less_1(2.0 * x) / (2.0 * x) : 1.0);
   const double mean = low + slope * x;
-  return {mean + slope * across, mean - slope * across, std::expm1(2.0 * e[2]), slope * shear};
+  return {mean + slope * across, mean - slope * across, exp_less_1(2.0 * e[2]), slope * shear};
 }
 
 bool half_log(const Vector4& c, Vector4& e) {
   const double across = 0.5 * (c[0] - c[1]), r = std::sqrt(across * across + c[3] * c[3]),
                low = 0.5 * (c[0] + c[1]) - r;
   if (!(low > -1.0) || !(c[2] > -1.0)) return false;
-  const double slope = r > 0.0 ? std::log1p(2.0 * r / (1.0 + low)) / (2.0 * r) : 1.0 / (1.0 + low);
-  const double mean = std::log1p(low) + slope * r;
-  e << 0.5 * (mean + slope * across), 0.5 * (mean - slope * across), 0.5 * std::log1p(c[2]), 0.5 * slope * c[3];
+  const double slope = r > 0.0 ? log_1_plus(2.0 * r / (1.0 + low)) / (2.0 * r) : 1.0 / (1.0 + low);
+  const double mean = log_1_plus(low) + slope * r;
+  e = Vector4(0.5 * (mean + slope * across), 0.5 * (mean - slope * across), 0.5 * log_1_plus(c[2]),
+              0.5 * slope * c[3]);
   return true;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "materials/stress_measures.hpp"
+#include "sage/math/exp_and_log.hpp"
 
 namespace sage {
 
@@ -14,7 +15,9 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kOnSurface = 1e-12;  // of p_c: what rounding leaves outside
 constexpr double kIsotropic = 1e-13;  // of p_c: a deviator below has no direction
-constexpr double kAngle = 1e-12;  // of the place on the surface; rounding leaves less where the surface is near
+// Corrections of the angle that are small enough, beside its sine: near both ends of the surface the deviator or the mean
+// stress is as small as the sine.
+constexpr double kAngle = 1e-12;
 constexpr double kAngleDigits = 1e-7;  // a last correction of Newton's method, which doubles the digits
 constexpr int kRounds = 200;
 constexpr double kNearSurface = 1e-10;  // of ln(level)
@@ -92,18 +95,6 @@ double sine_of_friction(double M) {
 double van_eekelen_ratio(double M) {
   const double sine = sine_of_friction(M);
   return (3.0 - sine) / (3.0 + sine);
-}
-
-// Steps are small, so that ln and exp of their ratios mostly follow from a few terms of a series, to rounding.
-double exp_less_1(double x) {
-  if (!(std::abs(x) < 0.01)) return std::expm1(x);
-  return x * (1.0 + x * (1.0 / 2 + x * (1.0 / 6 + x * (1.0 / 24 + x * (1.0 / 120 + x / 720)))));
-}
-double log_1_plus(double x) {
-  if (!(std::abs(x) < 0.1)) return std::log1p(x);
-  const double y = x / (2.0 + x), z = y * y;
-  return 2.0 * y *
-         (1.0 + z * (1.0 / 3 + z * (1.0 / 5 + z * (1.0 / 7 + z * (1.0 / 9 + z * (1.0 / 11 + z / 13))))));
 }
 
 // The mean of exp over [0, x], (exp(x) - 1)/x, and its derivative.
@@ -443,8 +434,9 @@ ModifiedCamClay::OnSurface ModifiedCamClay::return_to_surface(const Step& step, 
     const double turn = at.lack_rate > 0.0 ? -at.lack / at.lack_rate : kInfinite, half = 0.5 * turn;
     next = (at.height + half) / (1.0 - at.height * half);
     const bool within = std::abs(half) < kCritical && at.height * half < 1.0;
-    if (std::abs(turn) <= kAngle) return at;
-    if (within && std::abs(turn) <= kAngleDigits) return on_surface(step, std::clamp(next, low, high));
+    if (std::abs(turn) <= kAngle * at.sine) return at;
+    if (within && std::abs(turn) <= kAngleDigits * at.sine)
+      return on_surface(step, std::clamp(next, low, high));
     const bool slow = round % 3 == 2 && width() > 0.5 * std::exchange(before, width());
     if (slow || !(within && next > low && next < high))
       next = std::tan(0.5 * (std::atan(low) + std::atan(high)));

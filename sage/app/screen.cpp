@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/Option.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
@@ -100,10 +101,12 @@ void print_diagnostics(const Diagnostics& diagnostics) {
     if (++shown <= kShown) text += with_colour(diagnostic) + '\n';
   }
   if (shown > kShown) text += fmt::format("and {} more messages\n", shown - kShown);
+  const auto count = [&](Severity severity, const char* word) {
+    const auto listed = std::ranges::count(diagnostics.list(), severity, &Diagnostic::severity);
+    return fmt::format("{} {}{}", listed, word, listed == 1 ? "" : "s");
+  };
   if (diagnostics.errors() > 0)
-    text +=
-        fmt::format("{} error{}, {} warning{}\n", diagnostics.errors(), diagnostics.errors() == 1 ? "" : "s",
-                    diagnostics.warnings(), diagnostics.warnings() == 1 ? "" : "s");
+    text += count(Severity::error, "error") + ", " + count(Severity::warning, "warning") + '\n';
   if (!text.empty()) pass_on_stderr(text);
 }
 

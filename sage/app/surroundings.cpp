@@ -283,11 +283,14 @@ double LocalErrors::spectral_error(const Change& now, const Change* before, doub
   return std::max({all, slow, least_share(stiffness) * now.size});
 }
 
-// Halved elements: their degree bounds how fast a change can fall.
+// Halved elements of degree p: no change counts as falling faster than by 2^-(p - 1), one order less than the best, since a
+// point may do better than its surroundings by chance; nor than by half of three meshes, the first of which may be too
+// coarse for a rate.
 double LocalErrors::halving_error(const Change& now, const Change* before) const {
   if (now.only_rounding()) return now.own;
   if (before == nullptr) return kUnknown;
-  return now.own * rest(std::max(now.largest / before->largest, 1.0 / std::sqrt(sequence_.most)), 1.5);
+  const double least = mesh_ == 3 ? 0.5 : std::min(0.5, 2.0 / std::sqrt(sequence_.most));
+  return now.own * rest(std::max(now.largest / before->largest, least), 2.0);
 }
 
 std::vector<double> LocalErrors::errors_of(const Model& model, std::size_t report, const Surroundings& now) {

@@ -472,6 +472,10 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
     const Material& second = b.model.materials[found->second];
     const MaterialEntry* const law = b.catalogue.materials.find(second.code);
     if (law_size_of(b, second) == size && law->of_pores == pores && !law->flow) return;
+  } else if (number != 0) {
+    b.error("S204", card.where("second_material"),
+            name + ": second material " + std::to_string(number) + " is not defined by any material card");
+    return;
   }
   b.error(
       "S225", card.where("second_material"),

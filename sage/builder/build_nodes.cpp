@@ -223,20 +223,19 @@ void add_middle_nodes(Builder& b, PlacedNodes& nodes) {
       place_middle_nodes(card, found->second, nodes);
 }
 
-// Of a drawing whose nodes were moved since (by a sweep, say) the sides stay as their nodes have them.
+// The ends of a side have the same distance from the centre but for what drawings allow (sage/section/check.cpp).  Where
+// nodes were moved since, the sides between them stay as the nodes have them.
 void add_arc(Builder& b, const DeckArc& drawn) {
-  constexpr double kOnCircle = 1e-9;  // of the radius: drawn nodes differ by rounding
+  constexpr double kOnCircle = 2e-4;  // of the radius
   Arc arc{{drawn.x, drawn.y}, {}};
-  double radius = 0.0;
-  for (const int number : drawn.nodes) {
-    const int* const node = b.node_index.find(number);
-    if (node == nullptr) return;
-    const double distance = (b.model.mesh.x.col(*node) - arc.centre).norm();
-    if (arc.ends.empty()) radius = distance;
-    if (!(std::abs(distance - radius) <= kOnCircle * radius)) return;
-    arc.ends.push_back(*node);
+  for (const auto& [from, to] : drawn.ends) {
+    const int *const a = b.node_index.find(from), *const z = b.node_index.find(to);
+    if (a == nullptr || z == nullptr) continue;
+    const double radius_a = (b.model.mesh.x.col(*a) - arc.centre).norm(),
+                 radius_z = (b.model.mesh.x.col(*z) - arc.centre).norm();
+    if (std::abs(radius_a - radius_z) <= kOnCircle * radius_a) arc.ends.emplace_back(*a, *z);
   }
-  b.model.mesh.arcs.push_back(std::move(arc));
+  if (!arc.ends.empty()) b.model.mesh.arcs.push_back(std::move(arc));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "sage/core/law_remark.hpp"
 #include "sage/deck/text.hpp"
 #include "sage/model/activity.hpp"
+#include "sage/model/arc_sides.hpp"
 #include "sage/model/locking.hpp"
 
 namespace sage::builder {
@@ -28,6 +29,19 @@ double largest_angle(const Eigen::Matrix2Xd& x, const Element& element) {
   return largest;
 }
 
+// Nodes that a finer mesh puts on a circle can fold an element that one more layer of elements would save.
+std::string cure_on_arcs(const ArcSides& arcs, const Group& group, int e) {
+  const auto& edges = group.element->edges();
+  const int* const nodes = group.nodes_of(e);
+  const bool on_arc = std::ranges::any_of(edges, [&](const std::vector<int>& edge) {
+    return arcs.centre(nodes[edge[0]], nodes[edge[1]]).has_value();
+  });
+  return on_arc ? "; it lies along an arc, whose nodes a finer mesh puts on the circle: give the line of the "
+                  "arc a "
+                  "smaller size"
+                : "";
+}
+
 void check_shapes(Builder& b) {
   constexpr std::size_t kShown = 20;
   constexpr double kPoorShape = 0.1;
@@ -38,6 +52,7 @@ void check_shapes(Builder& b) {
     int more = 0;
   };
   std::vector<Refused> refused;
+  const ArcSides arcs(b.model.mesh);
   int poor = 0;
   double worst = 1.0, worst_angle = 0.0;
   std::string worst_name;
@@ -69,7 +84,9 @@ void check_shapes(Builder& b) {
         if (!refused.empty() && refused.back().line == line)
           ++refused.back().more;
         else
-          refused.push_back({line, name() + " (" + group.element_name + "): " + error.what(), 0});
+          refused.push_back(
+              {line, name() + " (" + group.element_name + "): " + error.what() + cure_on_arcs(arcs, group, e),
+               0});
       }
     }
     if (cautioned > 1) caution += " (and " + std::to_string(cautioned - 1) + " more)";

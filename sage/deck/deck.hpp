@@ -94,8 +94,8 @@ class CardView;
 
 // A part of a circle that sides of elements follow in a drawing.  No card says this.
 struct DeckArc {
-  double x = 0.0, y = 0.0;  // of the centre
-  std::vector<int> nodes;   // numbers of the nodes at the ends of the sides, in their order
+  double x = 0.0, y = 0.0;                // of the centre
+  std::vector<std::pair<int, int>> ends;  // numbers of the nodes at the ends of each side
 };
 
 class Deck {

@@ -44,7 +44,7 @@ std::vector<std::string> field_columns(const CardRule& card) {
     if (!is_data(step.edit)) continue;
     const std::string last = step.width == 0 ? std::string("end") : std::to_string(at + step.width - 1);
     std::string place = step.width == 1 ? std::to_string(at) : std::to_string(at) + "-" + last;
-    if (record > 1) place += " (card " + std::to_string(record) + ")";
+    if (record > 1) place += " (line " + std::to_string(record) + ")";
     columns.push_back(place);
     at += step.width;
   }
@@ -60,14 +60,14 @@ std::string values_text(const FieldRule& rule) {
 void add_field(const FieldSpec& spec, const FieldRule& rule, const std::string& place, Page& page) {
   std::string notes = rule.codes;
   const auto note = [&](const std::string& text) { notes += (notes.empty() ? "" : "; ") + text; };
-  if (spec.required) note("must be given");
-  if (spec.blank_note == BlankNote::always) note("a blank is noted");
-  if (spec.blank_note == BlankNote::compared) note("a blank is noted where other cards have a value");
-  if (spec.has_fallback) note("blank gives " + number_text(spec.fallback));
+  if (spec.required) note("required");
+  if (spec.blank_note == BlankNote::always) note("note if blank");
+  if (spec.blank_note == BlankNote::compared) note("note if blank and another of these cards has a value");
+  if (spec.has_fallback) note("blank = " + number_text(spec.fallback));
   if (rule.bounded()) note("between " + number_text(rule.least) + " and " + number_text(rule.most));
   if (!rule.must_equal.empty()) note("must read " + rule.must_equal);
   if (spec.computed) note("computed: " + values_text(rule));
-  if (!rule.count.empty()) note("repeats: " + rule.count.source);
+  if (!rule.count.empty()) note("list of `" + rule.count.source + "` values");
   if (!spec.use.empty()) note(spec.use);
   page.row({place, "`" + spec.name + "`", kind_text(spec.kind), Page::cell(spec.label), Page::cell(spec.unit),
             Page::cell(notes)});
@@ -91,7 +91,7 @@ std::string run_text(const LayoutEntry& entry) {
       text = "`" + entry.count.source + "` times";
       break;
     case LayoutEntry::Run::named:
-      text = "as often as the name stands";
+      text = "as often as its name occurs";
       break;
     case LayoutEntry::Run::until:
       text = "repeats";
@@ -123,8 +123,8 @@ void add_cards(const Layout& layout, const std::vector<LayoutEntry>& entries, Pa
     const CardRule& card = layout.cards[entry.card];
     page.heading(3, card.key + (card.spec.name != card.key ? " (`" + card.spec.name + "`)" : ""));
     if (!card.about.empty()) page.paragraph(card.about);
-    page.paragraph((card.list_directed ? std::string("List-directed")
-                    : card.spec.made   ? std::string("Stands in no record: its values are computed")
+    page.paragraph((card.list_directed ? std::string("Free format (list-directed)")
+                    : card.spec.made   ? std::string("Not in the deck: its values are computed")
                                        : "FORMAT `" + card.spec.format + "`") +
                    ", " + run_text(entry) + ".");
     if (!card.spec.fields.empty()) add_fields(card, page);

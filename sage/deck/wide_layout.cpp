@@ -43,28 +43,43 @@ FieldSpec field(const std::string& name, const std::string& label, FieldKind kin
 void lengthen_stage(Layout& layout) {
   lengthen(
       layout, "stage", "2F20.0,I10,2F20.0,I10,3F20.0,2A80",
-      {field("duration", "time that the stage lasts, for laws that depend on it; blank = 1", FieldKind::real),
-       field("strength_factor", "factor by which strengths were divided, for the table of results",
+      {field("duration", "duration of the stage, for laws that depend on time and for consolidation; blank = 1",
              FieldKind::real),
-       field("pore_water", "pore water: 0 its excess pressures stay, 1 undrained, 2 consolidation",
-             FieldKind::integer),
-       field("theta", "theta of the steps of consolidation, 0.5 to 1; blank = 1", FieldKind::real),
-       field("grading", "each increment over the one before; blank = 1", FieldKind::real),
-       field("reset_displacements", "1: displacements count from the start of this stage; 0 they go on",
-             FieldKind::integer),
-       field(
-           "time_error",
-           "consolidation: largest error of one step in time, as a share of the largest excess pressure (root "
-           "mean square); blank = steps are the increments",
-           FieldKind::real),
-       field("end_degree", "consolidation: the stage ends at this degree of consolidation", FieldKind::real),
-       field("end_pressure", "consolidation: the stage ends when no excess pressure is larger",
+       field("strength_factor",
+             "factor by which the strengths of the stage have been divided; blank = no factor",
              FieldKind::real),
-       field("output_times", "times since the start of the stage with output, with blanks between",
+       field("pore_water",
+             "pore water of elements for consolidation: 0 = excess pressures keep their values, 1 = undrained, "
+             "2 = consolidation",
+             FieldKind::integer),
+       field("theta",
+             "consolidation: theta of the time integration, from 0.5 (Crank-Nicolson) to 1 (backward Euler); "
+             "blank = 1",
+             FieldKind::real),
+       field("grading", "length of each increment divided by that of the increment before; blank = 1",
+             FieldKind::real),
+       field("reset_displacements",
+             "reset of displacements, which then count from the start of this stage; 0 (false) = no, 1 (true) "
+             "= yes",
+             FieldKind::integer),
+       field("time_error",
+             "consolidation: largest error of one time step, divided by the largest excess pressure (root mean "
+             "squares); blank = each increment is one time step",
+             FieldKind::real),
+       field("end_degree",
+             "consolidation: degree of consolidation, below 1, at which the stage ends; blank = the stage "
+             "lasts its duration",
+             FieldKind::real),
+       field("end_pressure",
+             "consolidation: the stage ends when no excess pressure exceeds this stress; blank = the stage "
+             "lasts its duration",
+             FieldKind::real),
+       field("output_times",
+             "times since the start of the stage at which sagefe writes output, with blanks between them",
              FieldKind::text),
        field("load_control",
-             "displacement that controls the load: node, x or y, and its growth over the stage, as 12 y -0.05; "
-             "12 15 y 0.02 is that of node 12 less that of node 15",
+             "displacement that controls the load: node, direction and growth during the stage, such as 12 y "
+             "-0.05; 12 15 y 0.02 is for the displacement of node 12 less that of node 15",
              FieldKind::text)});
 }
 
@@ -73,50 +88,54 @@ void lengthen_cards(Layout& layout) {
   for (int i = 9; i <= kWideNodes; ++i)
     nodes.push_back(field("n" + std::to_string(i), "node " + std::to_string(i), FieldKind::integer));
   lengthen(layout, "element", std::to_string(nodes.size()) + "I10", nodes);
-  FieldSpec saturated = field("saturated_unit_weight",
-                              "saturated unit weight, of solids below phreatic lines (water cards of kind 1); "
-                              "blank = the unit weight",
-                              FieldKind::real);
+  FieldSpec saturated = field(
+      "saturated_unit_weight",
+      "unit weight of solids below a phreatic line (water cards of kind 1); blank = the unit weight above it",
+      FieldKind::real);
   saturated.unit = "force/length^3";
   lengthen(layout, "material", "F20.0", {saturated});
-  lengthen(layout, "group", "I10",
-           {field("second_material", "material number of the second law, of elements that have two",
-                  FieldKind::integer)});
+  lengthen(
+      layout, "group", "I10",
+      {field("second_material", "material of the pore water, for element types that need a second material",
+             FieldKind::integer)});
   lengthen_stage(layout);
   for (const char* card : {"stage_fixity", "load"})
-    lengthen(
-        layout, card, "A80",
-        {field("history",
-               "times since the start of the stage and the factor of the value that is reached then, as 0 0 2 "
-               "1 10 0.5; blank = in proportion to time",
-               FieldKind::text)});
+    lengthen(layout, card, "A80",
+             {field("history",
+                    "table of time: pairs of a time since the start of the stage and a factor on the value of "
+                    "this card, such as 0 0 2 1 10 0.5; blank = the value grows in proportion to time",
+                    FieldKind::text)});
   for (const char* card : {"fixity", "stage_fixity"}) {
     FieldSpec angle = field("angle",
-                            "angle of a line to the x axis, anticlockwise: the codes and values of x are along "
-                            "that line, those of y normal to it; blank = 0",
+                            "angle of the support, counter-clockwise from the x axis: codes and values of x "
+                            "are along this direction, those of y normal to it; blank = 0",
                             FieldKind::real);
     angle.unit = "deg";
-    lengthen(
-        layout, card, "F20.0,2I10",
-        {angle, field("tie", "code 3: number of the node as which the first node moves", FieldKind::integer),
-         field("tie_step", "code 3: from each to the next of these nodes; blank = all are tied to the one",
-               FieldKind::integer)});
+    lengthen(layout, card, "F20.0,2I10",
+             {angle,
+              field("tie", "code 3 (tied), only before the stages: node to which the first node is tied",
+                    FieldKind::integer),
+              field("tie_step",
+                    "code 3 (tied): increment that is added to this node for each further node of the card; "
+                    "blank = all are tied to one node",
+                    FieldKind::integer)});
   }
   lengthen(layout, "pressure", "A20,A80",
            {field("unknown",
-                  "unknown: blank: a stress; excess_pressure: inflow of pore water per area and time, in the "
-                  "columns of the "
-                  "pressure",
+                  "kind of action: blank = pressure and shear stress; excess_pressure = inflow of pore water "
+                  "per area and time, in place of the pressure",
                   FieldKind::text),
             field("history",
-                  "times since the start of the stage and the factor of the pressure that is reached then, as "
-                  "0 0 2 1; "
-                  "of an inflow: the share of it then, as 0 1 5 1 5.1 0; blank = even",
+                  "table of time: pairs of a time since the start of the stage and a factor on the pressure of "
+                  "this card, such as 0 0 2 1, or on an inflow, such as 0 1 5 1 5.1 0; blank = a pressure "
+                  "grows in proportion to time, an inflow is constant",
                   FieldKind::text)});
   for (const char* initial : {"initial", "stage_initial"})
     lengthen(layout, initial, "I10,A40",
-             {field("material", "kind 6: material number, in place of value 1", FieldKind::integer),
-              field("parameter", "kind 7: name of the parameter, in place of value 1", FieldKind::text)});
+             {field("material", "kind 6 (material): number of the new material, in place of value 1",
+                    FieldKind::integer),
+              field("parameter", "kind 7 (parameter): name of the parameter, in place of value 1",
+                    FieldKind::text)});
 }
 
 }  // namespace

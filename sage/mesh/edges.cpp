@@ -416,10 +416,50 @@ EdgeTable::EdgeTable(const Model& model, bool structures)
     for (auto it = begin; it != stop; ++it) edges_.push_back({{static_cast<int>(node), *it}});
   }
   start_.back() = static_cast<int>(edges_.size());
+  join_beyond_interfaces(model);
+}
+
+void EdgeTable::join_beyond_interfaces(const Model& model) {
+  Joined pairs(static_cast<std::size_t>(model.mesh.nodes()));
+  std::set<int> paired;
+  std::set<EdgeKey> lined;  // an interface lies on them
+  for (const Group& group : model.groups) {
+    if (!group.interface() || group.entry->corners != 4) continue;
+    for (int e = 0; e < group.elements(); ++e) {
+      const int* const n = group.nodes_of(e);
+      for (const std::vector<int>& edge : group.element->edges())
+        lined.insert(edge_key(n[edge[0]], n[edge[1]]));
+      for (const auto& [one, other] : {std::pair{n[0], n[3]}, {n[1], n[2]}}) {
+        if (one == other || model.mesh.x.col(one) != model.mesh.x.col(other)) continue;
+        pairs.join(one, other);
+        paired.insert({one, other});
+      }
+    }
+  }
+  if (paired.empty()) return;
+  std::map<std::pair<int, int>, int> first;  // of the nodes of a pair, by the pair and the other end
+  for (const Edge& edge : edges_) {
+    if (lined.contains(edge.ends)) continue;
+    const auto [low, high] = edge.ends;
+    const auto stands = [&](int tip, int far) {
+      return paired.contains(tip) ? first.try_emplace({pairs.set_of(tip), far}, tip).first->second : tip;
+    };
+    if (const int tip = stands(low, high); tip != low) standing_for_[edge.ends] = {tip, high};
+    if (const int tip = stands(high, low); tip != high) standing_for_[edge.ends] = {low, tip};
+  }
+}
+
+std::pair<int, int> EdgeTable::ends(int a, int z) const {
+  if (standing_for_.empty()) return {a, z};
+  const auto found = standing_for_.find(edge_key(a, z));
+  if (found == standing_for_.end()) return {a, z};
+  const auto [low, high] = found->second;
+  return a < z ? std::pair{low, high} : std::pair{high, low};
 }
 
 EdgeTable::Edge* EdgeTable::find(int a, int z) {
-  const auto [low, high] = edge_key(a, z);
+  const auto [of_a, of_z] = ends(a, z);
+  const auto [low, high] = edge_key(of_a, of_z);
   if (low < 0 || low + 1 >= static_cast<int>(start_.size())) return nullptr;
   const auto node = static_cast<std::size_t>(low);
   const auto begin = edges_.begin() + start_[node], end = edges_.begin() + start_[node + 1];

@@ -31,6 +31,9 @@ struct OnEdge {
 
 // The edges of elements, by their ends, with the nodes inside them, in flat tables: a mesh of a million edges has no
 // time for a tree of them.  Edges stand by rising key.
+//
+// Beyond the end of an interface inside the ground two elements share an edge but for its first node, which is the pair that
+// opens there.  Such edges are one, so that finer meshes are joined from their first new node on, as coarse ones are.
 class EdgeTable {
  public:
   struct Edge {
@@ -50,13 +53,18 @@ class EdgeTable {
   EdgeTable(const Model& model, bool structures);
 
   Edge* find(int a, int z);  // nullptr: no element has it
+  // The ends, in the same order, of the edge that stands for it.
+  std::pair<int, int> ends(int a, int z) const;
   std::size_t index(const Edge& edge) const { return static_cast<std::size_t>(&edge - edges_.data()); }
   void add(Edge& edge, const Link& link);
   const std::vector<Edge>& edges() const { return edges_; }
   const Link& link(int i) const { return links_[i]; }
 
  private:
-  std::vector<int> start_;  // of each node: the edges of which it is the smaller end
+  void join_beyond_interfaces(const Model& model);
+
+  std::map<EdgeKey, EdgeKey> standing_for_;  // ends in the same order
+  std::vector<int> start_;                   // of each node: the edges of which it is the smaller end
   std::vector<Edge> edges_;
   std::vector<Link> links_;
 };

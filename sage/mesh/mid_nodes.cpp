@@ -76,7 +76,7 @@ void take_given(const Making& made, std::size_t edge, const InnerOfEdge& inner) 
 
 // The first element of an edge makes the nodes that it misses there, and all others take them over.
 void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector<int>& local, Making& made) {
-  const int a = nodes[local[0]], z = nodes[local[1]];
+  const auto [a, z] = made.edges.ends(nodes[local[0]], nodes[local[1]]);
   EdgeTable::Edge& edge = *made.edges.find(a, z);
   const InnerOfEdge inner{nodes, local, a < z};
   if (!fits(b, group, e, made, edge, inner.count())) return;
@@ -94,8 +94,8 @@ void make_edge(Work& b, const Group& group, int e, int* nodes, const std::vector
   if (const int m = middle_of(local); m >= 0 && nodes[m] >= 0) middle = made.nodes.at(nodes[m]);
   for (std::size_t i = 2; i < local.size(); ++i)
     if (int& node = nodes[local[i]]; node < 0)
-      node = made.nodes.add(
-          made.arcs.along(a, z, made.nodes.at(a), made.nodes.at(z), middle, place_on_edge(parent, local, i)));
+      node = made.nodes.add(along_side(made.nodes.at(a), made.nodes.at(z), middle, made.arcs.centre(a, z),
+                                       place_on_edge(parent, local, i)));
   for (std::size_t i = 0; i < inner.count(); ++i) {
     const double t = place_on_edge(parent, local, inner.index(i));
     made.edges.add(edge, {{inner.rising ? t : 1 - t, inner.at(i)}});
@@ -107,7 +107,7 @@ void find_given(const Group& group, Making& made) {
   for (int e = 0; e < group.elements(); ++e)
     for (const std::vector<int>& local : group.element->edges()) {
       const int* nodes = group.nodes_of(e);
-      const int a = nodes[local[0]], z = nodes[local[1]];
+      const auto [a, z] = made.edges.ends(nodes[local[0]], nodes[local[1]]);
       for (std::size_t i = 2; i < local.size(); ++i) {
         if (nodes[local[i]] < 0) continue;
         const std::size_t inner = local.size() - 2;
@@ -128,8 +128,9 @@ void make_inner(const Group& group, int corners, int* nodes, Making& made) {
   for (int k = 0; k < corners; ++k) {
     const auto ku = static_cast<std::size_t>(k);
     shape.corner[ku] = made.nodes.at(nodes[k]);
-    const int middle = middle_of(group.element->edges()[ku]);
-    if (middle >= 0) shape.middle[ku] = made.nodes.at(nodes[middle]);
+    const std::vector<int>& edge = group.element->edges()[ku];
+    if (const int middle = middle_of(edge); middle >= 0) shape.middle[ku] = made.nodes.at(nodes[middle]);
+    shape.centre[ku] = made.arcs.centre(nodes[edge[0]], nodes[edge[1]]);
   }
   for (std::size_t i = static_cast<std::size_t>(corners); i < group.node_count(); ++i)
     if (nodes[i] < 0) {

@@ -8,6 +8,7 @@
 
 #include "sage/mesh/corner_exponent.hpp"
 #include "sage/mesh/subdivide.hpp"
+#include "sage/model/arc_sides.hpp"
 #include "sage/model/locking.hpp"
 
 namespace sage::mesh {
@@ -78,11 +79,16 @@ std::vector<int> kinds_of_material(const Model& model) {
   return kinds;
 }
 
-// From an end of a side into it; of a parabola where a card gives its middle.
-Vector2 direction(const Mesh& mesh, const std::array<int, 2>& ends, int middle, std::size_t end) {
+// From an end of a side into it: along its circle, or the parabola where a card gives its middle.
+Vector2 direction(const Mesh& mesh, const ArcSides& arcs, const std::array<int, 2>& ends, int middle,
+                  std::size_t end) {
   const Vector2 here = mesh.x.col(ends[end]), there = mesh.x.col(ends[1 - end]);
   constexpr double kNothing = 1e-6;  // of a middle at the quarter point
   const Vector2 chord = there - here;
+  if (const auto centre = arcs.centre(ends[0], ends[1])) {
+    const Vector2 radius = here - *centre, around(-radius.y(), radius.x());
+    return around.dot(chord) > 0.0 ? around : Vector2(-around);
+  }
   if (middle < 0) return chord;
   const Vector2 tangent = 4.0 * mesh.x.col(middle) - 3.0 * here - there;
   return tangent.norm() > kNothing * chord.norm() ? tangent : chord;
@@ -90,6 +96,7 @@ Vector2 direction(const Mesh& mesh, const std::array<int, 2>& ends, int middle, 
 
 Outline outline_of(const Model& model) {
   Outline outline;
+  const ArcSides arcs(model.mesh);
   const std::vector<int> kinds = kinds_of_material(model);
   std::map<EdgeKey, int> uses, kind_on;
   std::vector<BoundaryEdge> all;
@@ -117,9 +124,10 @@ Outline outline_of(const Model& model) {
           ++outline.borders[a];
           ++outline.borders[z];
         }
-        const Vector2 out = direction(model.mesh, {a, z}, middle, 0),
-                      in = direction(model.mesh, {before, a}, middle_node(edge_before), 1);
-        const double angle = degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
+        const Vector2 out = direction(model.mesh, arcs, {a, z}, middle, 0),
+                      in = direction(model.mesh, arcs, {before, a}, middle_node(edge_before), 1);
+        double angle = degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
+        if (angle < -90.0) angle += 360.0;  // two sides that go straight on
         outline.angle[a] += angle;
         outline.sectors[a][kinds[g]] += angle;
       }
@@ -209,7 +217,7 @@ void find_by_materials(const Model& model, const Outline& outline, std::set<int>
 // bounded, its slope is not.
 class EdgeLoads {
  public:
-  EdgeLoads(const Model& model, const Stage& stage) : model_(&model) {
+  EdgeLoads(const Model& model, const Stage& stage) : model_(&model), arcs_(model.mesh) {
     for (const EdgeLoad& p : stage.pressures) {
       auto [it, is_new] = load_.try_emplace({p.group, p.element, p.edge},
                                             std::array<Vector2, 2>{Vector2::Zero(), Vector2::Zero()});
@@ -236,7 +244,7 @@ class EdgeLoads {
   }
   Vector2 normal(const BoundaryEdge& e, std::size_t end) const {  // outward
     const Vector2 along =
-        (end == 0 ? 1.0 : -1.0) * direction(model_->mesh, {e.a, e.z}, e.middle, end).normalized();
+        (end == 0 ? 1.0 : -1.0) * direction(model_->mesh, arcs_, {e.a, e.z}, e.middle, end).normalized();
     return {along.y(), -along.x()};
   }
   Vector2 traction(const BoundaryEdge& e, std::size_t end) const {
@@ -245,6 +253,7 @@ class EdgeLoads {
   }
 
   const Model* model_;
+  ArcSides arcs_;
   std::map<std::tuple<int, int, int>, std::array<Vector2, 2>> load_;  // pressure, shear at both ends of an edge
   double largest_ = 0.0;
 };

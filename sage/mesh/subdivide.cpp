@@ -153,6 +153,7 @@ void Subdivision::share_middles() {
 
 // The node at t on an edge, seen alike from both of its elements: places are counted from the nearer end.
 int Subdivision::cut(int a, int z, int middle, double t) {
+  std::tie(a, z) = edges_.ends(a, z);
   if (t > 0.5 + kTiny || (t > 0.5 - kTiny && a > z)) {
     std::swap(a, z);
     t = 1 - t;
@@ -165,7 +166,7 @@ int Subdivision::cut(int a, int z, int middle, double t) {
     if (const EdgeTable::Link& link = edges_.link(i); link.near == a && link.place == place) return link.node;
   std::optional<Vector2> m;
   if (middle >= 0) m = nodes_.at(middle);
-  const int made = nodes_.add(arcs_.along(a, z, nodes_.at(a), nodes_.at(z), m, t));
+  const int made = nodes_.add(along_side(nodes_.at(a), nodes_.at(z), m, arcs_.centre(a, z), t));
   edges_.add(*edge, {{a < z ? t : 1 - t, made}, -1, a, place});
   return made;
 }
@@ -205,9 +206,11 @@ void Subdivision::split(int g, int e, const std::vector<ChildCorners>& children)
   for (std::size_t k = 0; k < static_cast<std::size_t>(parent.corners); ++k)
     parent.shape.corner[k] = nodes_.at(parent.nodes[k]);
   if (!group.interface())
-    for (std::size_t k = 0; k < edges.size(); ++k)
+    for (std::size_t k = 0; k < edges.size(); ++k) {
       if (const int m = middle_of(edges[k]); m >= 0 && parent.nodes[m] >= 0)
         parent.shape.middle[k] = nodes_.at(parent.nodes[m]);
+      parent.shape.centre[k] = arcs_.centre(parent.nodes[edges[k][0]], parent.nodes[edges[k][1]]);
+    }
 
   // Children share corners.
   std::vector<std::pair<Place, int>>& known = corners_;
@@ -313,19 +316,17 @@ void Subdivision::divide_arcs() {
       for (int k = 0; k < group.entry->corners; ++k) corner[group.nodes_of(e)[k]] = 1;
   }
   for (Arc& arc : mesh.arcs) {
-    std::vector<int> ends;
-    for (std::size_t i = 0; i < arc.ends.size(); ++i) {
-      const int a = arc.ends[i];
-      ends.push_back(a);
-      const EdgeTable::Edge* const edge = i + 1 < arc.ends.size() ? edges_.find(a, arc.ends[i + 1]) : nullptr;
+    std::vector<std::pair<int, int>> ends;
+    for (const auto& [a, z] : arc.ends) {
+      const EdgeTable::Edge* const edge = edges_.find(a, z);
       std::vector<OnEdge> inside;
       for (int l = edge != nullptr ? edge->first : -1; l >= 0; l = edges_.link(l).next)
         if (corner[edges_.link(l).node] != 0) inside.push_back(edges_.link(l));
-      const bool forward = edge != nullptr && edge->ends.first == a;
-      std::ranges::sort(inside, [&](const OnEdge& one, const OnEdge& other) {
-        return forward ? one.at < other.at : one.at > other.at;
-      });
-      for (const OnEdge& node : inside) ends.push_back(node.node);
+      std::ranges::sort(inside, {}, &OnEdge::at);
+      const auto [of_a, of_z] = edges_.ends(a, z);
+      int last = of_a < of_z ? a : z;  // places count from the smaller end
+      for (const OnEdge& node : inside) ends.emplace_back(std::exchange(last, node.node), node.node);
+      ends.emplace_back(last, of_a < of_z ? z : a);
     }
     arc.ends = std::move(ends);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace sage {
@@ -75,9 +76,28 @@ std::string to_string(const Diagnostic& diagnostic) {
   return text;
 }
 
+namespace {
+
+constexpr std::size_t kLast = 16;  // so many are looked through for the same
+
+// One field of a model file stands for many cards, such as a fixity along a line, whose mistake is one: it counts each
+// time, and is listed once.
+bool is_same(const Diagnostic& one, const Diagnostic& other) {
+  const auto place = [](const SourcePosition& at) {
+    return std::tie(at.line, at.first_column, at.last_column, at.file);
+  };
+  return one.where.first_column > 0 && one.severity == other.severity &&
+         place(one.where) == place(other.where) && one.code == other.code && one.message == other.message;
+}
+
+}  // namespace
+
 void Diagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Severity::error) ++errors_;
   if (diagnostic.severity == Severity::warning) ++warnings_;
+  if (std::any_of(list_.end() - static_cast<std::ptrdiff_t>(std::min(kLast, list_.size())), list_.end(),
+                  [&](const Diagnostic& other) { return is_same(diagnostic, other); }))
+    return;
   list_.push_back(std::move(diagnostic));
 }
 

@@ -3,36 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sage/model/coarse_shape.hpp"
 #include "sage/model/model.hpp"
 #include "sage/model/solid_edges.hpp"
 
 namespace sage {
 
-Vector2 along_arc(const Vector2& a, const Vector2& z, const Vector2& centre, double t) {
-  const Vector2 from = a - centre, to = z - centre;
-  const double sweep = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
-  const double start = from.norm(), radius = (1.0 - t) * start + t * to.norm();
-  const double c = std::cos(t * sweep), s = std::sin(t * sweep);
-  return centre + radius / start * Vector2(c * from.x() - s * from.y(), s * from.x() + c * from.y());
-}
-
 ArcSides::ArcSides(const Mesh& mesh) {
   for (const Arc& arc : mesh.arcs)
-    for (std::size_t i = 0; i + 1 < arc.ends.size(); ++i)
-      centres_.try_emplace(std::minmax(arc.ends[i], arc.ends[i + 1]), arc.centre);
+    for (const auto& [a, z] : arc.ends) centres_.try_emplace(std::minmax(a, z), arc.centre);
 }
 
-const Vector2* ArcSides::centre(int a, int z) const {
-  if (centres_.empty()) return nullptr;
+std::optional<Vector2> ArcSides::centre(int a, int z) const {
+  if (centres_.empty()) return {};
   const auto found = centres_.find(std::minmax(a, z));
-  return found == centres_.end() ? nullptr : &found->second;
-}
-
-Vector2 ArcSides::along(int a, int z, const Vector2& x_a, const Vector2& x_z,
-                        const std::optional<Vector2>& middle, double t) const {
-  const Vector2* const round = centre(a, z);
-  return round != nullptr ? along_arc(x_a, x_z, *round, t) : along_edge(x_a, x_z, middle, t);
+  return found == centres_.end() ? std::nullopt : std::optional(found->second);
 }
 
 namespace {
@@ -72,7 +56,7 @@ bool has_curved_sides(const Model& model) {
 
 bool has_parabolic_sides(const Model& model) {
   const ArcSides arcs(model.mesh);
-  return any_curved_side(model, [&](int a, int z) { return !arcs.contains(a, z); });
+  return any_curved_side(model, [&](int a, int z) { return !arcs.centre(a, z); });
 }
 
 }  // namespace sage

@@ -12,22 +12,14 @@ namespace sage {
 struct Mesh;
 struct Model;
 
-// On the circle through a and z, by equal angles; t from a to z, the shorter way round.  Between different radii the
-// radius changes evenly.
-Vector2 along_arc(const Vector2& a, const Vector2& z, const Vector2& centre, double t);
-
 class ArcSides {
  public:
   explicit ArcSides(const Mesh& mesh);
 
-  bool contains(int a, int z) const { return centre(a, z) != nullptr; }
-  // A place on the side from node a to node z, which lie at x_a and x_z: on its circle, else as along_edge().
-  Vector2 along(int a, int z, const Vector2& x_a, const Vector2& x_z, const std::optional<Vector2>& middle,
-                double t) const;
+  // Of the circle that the side between two nodes follows; nothing where it follows none.
+  std::optional<Vector2> centre(int a, int z) const;
 
  private:
-  const Vector2* centre(int a, int z) const;
-
   std::map<std::pair<int, int>, Vector2> centres_;  // by the nodes at the ends, smaller first
 };
 

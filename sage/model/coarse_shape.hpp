@@ -11,16 +11,19 @@ namespace sage {
 // The parent coordinates of a corner, and of a place between corners.
 using Place = std::array<double, 2>;
 
-// Straight, or the parabola through a middle node; t from a to z.
-Vector2 along_edge(const Vector2& a, const Vector2& z, const std::optional<Vector2>& middle, double t);
+// The place at t = 0 ... 1 on a side from a to z.  It lies on the circle around `centre` (by equal angles, the shorter way
+// round; between different radii the radius changes evenly), else on the parabola through `middle`, else on the chord.
+Vector2 along_side(const Vector2& a, const Vector2& z, const std::optional<Vector2>& middle,
+                   const std::optional<Vector2>& centre, double t);
 
-// Shape of an element that is known by its corners and by the middle nodes of the sides that are curved: the
-// serendipity quadrilateral or the six-node triangle with straight sides where no middle node is given.
+// Shape of an element that is known by its corners and sides, each as in along_side(): the serendipity quadrilateral or
+// the six-node triangle where all sides are straight or parabolas.
 struct CoarseShape {
   int corners = 4;
   std::array<Vector2, 4> corner;
-  std::array<std::optional<Vector2>, 4> middle;  // of the side after each corner
+  std::array<std::optional<Vector2>, 4> middle, centre;  // of the side after each corner
 
+  // Whether a middle node lies off its chord.
   bool curved() const;
   Vector2 at(const Place& q) const;
 };

@@ -26,6 +26,24 @@ bool share_a_node(const Model& model, const Location& a, const Location& b) {
   return std::find_first_of(na, na + ga.node_count(), nb, nb + gb.node_count()) != na + ga.node_count();
 }
 
+// The most by which a circle lies outside the sides of an element that follow it.
+double bulge_of(const Mesh& mesh, const ArcSides& arcs, const Group& group, int e) {
+  const int* const nodes = group.nodes_of(e);
+  double most = 0.0;
+  for (const std::vector<int>& edge : group.element->edges()) {
+    const std::optional<Vector2> centre = arcs.centre(nodes[edge[0]], nodes[edge[1]]);
+    if (!centre) continue;
+    const Vector2 a = mesh.x.col(nodes[edge[0]]), z = mesh.x.col(nodes[edge[1]]);
+    std::optional<Vector2> middle;
+    if (edge.size() == 3) middle = mesh.x.col(nodes[edge[2]]);
+    for (const double t : {0.2, 0.5, 0.8}) {
+      const Vector2 side = along_side(a, z, middle, {}, t);
+      most = std::max(most, (along_side(a, z, {}, centre, t) - *centre).norm() - (side - *centre).norm());
+    }
+  }
+  return 1.05 * most;
+}
+
 }  // namespace
 
 ElementKind kind_at_points(const Model& model) {
@@ -63,7 +81,7 @@ bool find_parent(const Group& group, const Eigen::Matrix2Xd& x, const Vector2& p
   return group.element->shape_functions(parent, N, dN);
 }
 
-Locator::Locator(const Model& model, ElementKind kind) : model_(&model) {
+Locator::Locator(const Model& model, ElementKind kind) : model_(&model), arcs_(model.mesh) {
   Eigen::Matrix2Xd x;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {
     const Group& group = model.groups[g];
@@ -72,8 +90,9 @@ Locator::Locator(const Model& model, ElementKind kind) : model_(&model) {
       element_coordinates(model.mesh, group, e, x);
       const Vector2 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
       // Curved edges bulge.
-      const Vector2 margin = Vector2::Constant(0.05 * (high - low).maxCoeff() + model.mesh.reach);
-      boxes_.push_back({g, e, low - margin, high + margin});
+      const double bulge = bulge_of(model.mesh, arcs_, group, e);
+      const Vector2 margin = Vector2::Constant(0.05 * (high - low).maxCoeff() + model.mesh.reach + bulge);
+      boxes_.push_back({g, e, low - margin, high + margin, bulge});
     }
   }
   if (boxes_.empty()) return;
@@ -100,6 +119,18 @@ bool Locator::inside(const Box& box, const Vector2& place, Location& found) cons
   found.element = box.element;
   return find_parent(group, x, place, found.parent, found.N) &&
          in_parent(found.parent, group.entry->triangle());
+}
+
+// Of a side of the element that follows one.
+bool Locator::within_circle(const Box& box, const Vector2& place) const {
+  const Group& group = model_->groups[box.group];
+  const int* const nodes = group.nodes_of(box.element);
+  return std::ranges::any_of(group.element->edges(), [&](const std::vector<int>& edge) {
+    const std::optional<Vector2> centre = arcs_.centre(nodes[edge[0]], nodes[edge[1]]);
+    if (!centre) return false;
+    const double radius = (model_->mesh.x.col(nodes[edge[0]]) - *centre).norm();
+    return (place - *centre).norm() <= radius * (1.0 + kEdge) + model_->mesh.reach;
+  });
 }
 
 // Distance of the nearest place on the element's edges (infinite where there is none): Newton along each side,
@@ -156,7 +187,8 @@ std::vector<Location> Locator::at(const Vector2& place) const {
       continue;
     }
     const double distance = nearest(box, place, location);
-    if (!(distance <= model_->mesh.reach)) continue;
+    const double reach = model_->mesh.reach;
+    if (!(distance <= reach || (distance <= reach + box.bulge && within_circle(box, place)))) continue;
     near.push_back({std::move(location), distance});
     const auto known = least.try_emplace(box.group, distance).first;
     known->second = std::min(known->second, distance);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "sage/model/arc_sides.hpp"
 #include "sage/model/model.hpp"
 
 namespace sage {
@@ -26,7 +27,8 @@ class Locator {
 
   // Every such element that holds the place, in the order of groups and elements; its edges belong to it (to
   // 1e-6 of its size).  Of a group without one: those whose edge is nearest, at the nearest place there, if
-  // that is within the mesh's reach.  So what the deck's mesh holds is held by every mesh that is made of it.
+  // that is within the mesh's reach, or between a side of the element and the circle that it follows.  So what the deck's
+  // mesh or its drawing holds is held by every mesh that is made of it.
   std::vector<Location> at(const Vector2& place) const;
 
  private:
@@ -34,12 +36,15 @@ class Locator {
     std::size_t group = 0;
     int element = 0;
     Vector2 low, high;
+    double bulge = 0.0;  // of circles beyond its sides
   };
   bool inside(const Box& box, const Vector2& place, Location& found) const;
+  bool within_circle(const Box& box, const Vector2& place) const;
   std::size_t strip_at(double x) const;
   double nearest(const Box& box, const Vector2& place, Location& found) const;
 
   const Model* model_;
+  ArcSides arcs_;
   std::vector<Box> boxes_;
   // Boxes by strips along x, each in the order of boxes_.
   std::vector<std::vector<int>> strips_;

@@ -17,7 +17,7 @@ namespace sage {
 // Sides of elements, one after the other, that follow a circle.
 struct Arc {
   Vector2 centre = Vector2::Zero();
-  std::vector<int> ends;  // nodes (indices) at the ends of the sides
+  std::vector<std::pair<int, int>> ends;  // nodes (indices) at the ends of each side
 };
 
 struct Mesh {

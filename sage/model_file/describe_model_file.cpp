@@ -131,7 +131,7 @@ const char* kind_word(const Key& key) {
     case Want::element:
     case Want::solver:
     case Want::formulation:
-      return "name of the catalogue";
+      return "name that `sagefe list` prints";
     case Want::material:
     case Want::group:
       return "name or number";
@@ -191,16 +191,19 @@ std::string model_file_tables() {
   using namespace model_file;
   Page page("Tables and keys of model files");
   page.prose(
-      "Written from the layout `sage1` (`sage/model_file/keys.cpp`). Keys without \"required\" may be left "
-      "out. "
-      "Numbers of materials, groups, nodes and elements count on from the last one where they are left out.");
+      "This page lists all tables and keys of [model files](model_file.md). Keys without \"required\" may be "
+      "left out. A blank field in a description is a key that is left out. Materials, groups, nodes and "
+      "elements without a `number` get the next number, in the order of the file. The page is written from the "
+      "fields of [decks of cards](deck_format.md), so some descriptions contain the code numbers of decks. The "
+      "names of a key `kind` are in the order of these numbers: from 0, in reports from 1. A unit is in square "
+      "brackets.");
   for (const Table& one : tables()) {
     page.heading(2, heading_of(one));
     if (one.card.empty())
       page.prose(one.about);
     else if (!one.key.empty())
-      page.paragraph("Card `" + one.card + "` of `deck_format.md`.");
-    page.table({"key", "value", "what it is"});
+      page.paragraph("The keys are fields of the card `" + one.card + "` of [decks](deck_format.md).");
+    page.table({"key", "value", "meaning"});
     for (const Key& key : one.keys)
       page.row({"`" + key.key + "`", std::string(kind_word(key)) + (key.required ? ", required" : ""),
                 Page::cell(words_of(key))});

@@ -106,9 +106,11 @@ int Drawing::point_of(const toml::node& node) {
 int Drawing::find_point(const toml::node& node) {
   const std::string name = node.value_or(std::string());
   if (const auto found = points_.find(name); found != points_.end()) return found->second;
+  const bool is_place = node.is_array() && node.as_array()->size() == 2;
   values_.error("S153", values_.where(node),
-                name.empty() ? "a point is a name of [points], or [x, y]"
-                             : "[points] has no \"" + name + "\"" + did_you_mean(name, keys_of(points_)));
+                is_place ? "a point of the drawing is wanted: give it a name in [points], and that name here"
+                : name.empty() ? "a point is a name of [points], or [x, y]"
+                               : "[points] has no \"" + name + "\"" + did_you_mean(name, keys_of(points_)));
   return -1;
 }
 
@@ -146,6 +148,25 @@ Drawing::Interface Drawing::read_interface(const toml::node& node) {
   return interface;
 }
 
+// What another shape has means something else than was intended.
+void Drawing::check_shape(const toml::table& line, LineShape shape) {
+  const std::string of = shape == LineShape::circle ? "a circle"
+                         : shape == LineShape::arc  ? "an arc"
+                                                    : "a polyline";
+  if (shape != LineShape::polyline && !line.contains("centre"))
+    values_.error("S155", values_.where(line), of + " needs its centre");
+  const auto refuse = [&](std::initializer_list<const char*> keys) {
+    for (const char* const key : keys)
+      if (const toml::node* const given = line.get(key))
+        values_.error("S152", values_.where(*given), of + " has no " + std::string(key));
+  };
+  if (shape == LineShape::circle)
+    refuse({"points"});
+  else
+    refuse({"radius", "start_angle"});
+  if (shape == LineShape::polyline) refuse({"centre", "clockwise"});
+}
+
 void Drawing::read_lines(const toml::table& root) {
   for (const toml::table* one : values_.entries(root, "line")) {
     values_.know_keys(*one, table("line"));
@@ -158,6 +179,7 @@ void Drawing::read_lines(const toml::table& root) {
       values_.error("S155", values_.where(*one), "a line needs its name");
     more.name = line.name;
     line.shape = static_cast<LineShape>(code_of(values_, *one, "shape", "line"));
+    check_shape(*one, line.shape);
     if (const toml::node* points = one->get("points")) {
       if (const toml::array* list = points->as_array())
         for (const toml::node& point : *list) line.points.push_back(point_of(point));
@@ -167,7 +189,7 @@ void Drawing::read_lines(const toml::table& root) {
     if (const toml::node* centre = one->get("centre")) line.centre = point_of(*centre);
     line.radius = real_of(values_, *one, "radius", values_.units.length);
     line.start_angle = real_of(values_, *one, "start_angle", "deg") * std::numbers::pi / 180.0;
-    if (const toml::node* way = one->get("clockwise")) line.clockwise = way->value_or(false);
+    if (const toml::node* way = one->get("clockwise")) line.clockwise = values_.flag(*way, "direction");
     line.size = real_of(values_, *one, "size", values_.units.length);
     more.beam_material = material_of(values_, *one, "beam");
     more.bar_material = material_of(values_, *one, "bar");
@@ -212,9 +234,12 @@ void Drawing::read_areas(const toml::table& root) {
         values_.error("S155", values_.where(*one), "an area needs its " + std::string(key));
     if (const toml::node* name = one->get("name")) area.name = values_.text(*name, "name");
     if (const toml::node* outline = one->get("outline")) area.outline = read_outline(*outline);
-    if (const toml::node* holes = one->get("holes"))
+    if (const toml::node* holes = one->get("holes")) {
       if (const toml::array* list = holes->as_array())
         for (const toml::node& hole : *list) area.holes.push_back(read_outline(hole));
+      else
+        values_.error("S152", values_.where(*holes), "holes are a list of outlines: [[\"A\", \"B\"]]");
+    }
     area.size = real_of(values_, *one, "size", values_.units.length);
     area_material_.push_back(material_of(values_, *one, "material"));
     area_second_material_.push_back(material_of(values_, *one, "second_material"));
@@ -388,32 +413,41 @@ std::vector<int> Drawing::joints_beside(int group) const {
   return {};
 }
 
-// The sides along an arc or circle, of the bodies on both sides of it and of a beam where they have nodes of their own.
-void Drawing::add_arcs(const SectionLine& line, const LineMesh& mesh) {
+// The nodes at the ends of all sides along a line: of bodies, of interfaces and of its beam.  Where another line crosses,
+// each of them has nodes of its own.
+std::set<std::pair<int, int>> Drawing::sides_along(const LineMesh& mesh) const {
+  std::set<std::pair<int, int>> sides;
+  const auto add = [&](int a, int z) { sides.insert(std::minmax(a, z)); };
+  const int corners = entry_->corners;
+  for (const LineSegment& segment : mesh.segments)
+    for (const AreaEdge& edge : {segment.left, segment.right}) {
+      if (!edge.there()) continue;
+      const int* const nodes = mesh_.areas[edge.area].nodes.data() +
+                               static_cast<std::ptrdiff_t>(edge.element) * mesh_.nodes_per_element();
+      add(nodes[edge.edge], nodes[(edge.edge + 1) % corners]);
+    }
+  for (const auto* const interfaces : {&mesh.left_interfaces, &mesh.right_interfaces})
+    for (const InterfaceElement& one : *interfaces) {
+      add(one.nodes[0], one.nodes[1]);
+      add(one.nodes[2], one.nodes[3]);
+    }
+  const auto step = static_cast<std::size_t>(mesh_.nodes_per_edge - 1);
+  for (std::size_t i = step; i < mesh.beam.size(); i += step) add(mesh.beam[i - step], mesh.beam[i]);
+  return sides;
+}
+
+void Drawing::add_arc(const SectionLine& line, const LineMesh& mesh) {
   if (line.shape == LineShape::polyline) return;
   const Vector2& centre = section_.points[line.centre].x;
-  const auto step = static_cast<std::size_t>(mesh_.nodes_per_edge - 1);
-  std::set<std::vector<int>> drawn;
-  for (const std::vector<int>* const nodes : {&mesh.left, &mesh.right, &mesh.beam}) {
-    DeckArc arc{centre.x(), centre.y(), {}};
-    const auto close = [&] {
-      if (arc.nodes.size() > 1 && drawn.insert(arc.nodes).second) out_.add_arc(arc);
-      arc.nodes.clear();
-    };
-    for (std::size_t i = 0; i < nodes->size(); i += step) {
-      if ((*nodes)[i] < 0)
-        close();
-      else
-        arc.nodes.push_back(number_of((*nodes)[i]));
-    }
-    close();
-  }
+  DeckArc arc{centre.x(), centre.y(), {}};
+  for (const auto& [a, z] : sides_along(mesh)) arc.ends.emplace_back(number_of(a), number_of(z));
+  if (!arc.ends.empty()) out_.add_arc(std::move(arc));
 }
 
 void Drawing::add_lines() {
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     const LineMesh& mesh = mesh_.lines[l];
-    add_arcs(section_.lines[l], mesh);
+    add_arc(section_.lines[l], mesh);
     if (!mesh.beam.empty()) add_structure(lines_[l], mesh);
     if (lines_[l].interface.side == InterfaceSide::none) continue;
     if (entry_->side_interface.empty()) {

@@ -62,6 +62,7 @@ class Drawing {
 
   void read_mesh(const toml::table& root);
   void read_points(const toml::table& root);
+  void check_shape(const toml::table& line, LineShape shape);
   void read_lines(const toml::table& root);
   void read_areas(const toml::table& root);
   Interface read_interface(const toml::node& node);
@@ -77,7 +78,8 @@ class Drawing {
   void add_bars(const toml::table& root);
   void add_structure(const Line& line, const LineMesh& mesh);
   void add_interfaces(const Line& line, const LineMesh& mesh, bool left);
-  void add_arcs(const SectionLine& line, const LineMesh& mesh);
+  std::set<std::pair<int, int>> sides_along(const LineMesh& mesh) const;
+  void add_arc(const SectionLine& line, const LineMesh& mesh);
   int interface_material(const Line& line, int area);
   // A group's card and its elements' cards, `size` nodes each.
   int add_group(const std::string& name, const std::string& of, double element, int formulation, int material,

@@ -168,52 +168,74 @@ const std::vector<CodeName> kEnds{{0, "automatic"}, {1, "joined"}, {3, "open"}};
 
 // What the program draws and meshes by itself: sage/section.
 std::vector<Table> drawn_tables() {
-  Table mesh{"mesh", "", "How areas become elements.", false, {}};
+  Table mesh{"mesh", "", "How sagefe divides areas into elements.", false, {}};
   mesh.keys = {
-      {"element", "element", Want::element, true, {}, "element of all areas", {}, {}, {}},
-      {"formulation", "formulation", Want::formulation, false, {}, "its formulation", {}, {}, {}},
-      drawn("size", Want::real, "length of edges where nothing else is wished", "length"),
-      drawn("growth", Want::real, "by which sizes grow with the distance from where a small one is wished"),
-      drawn("mesher", Want::code, "mesher", {}, {{0, "automatic"}, {1, "gmsh"}, {2, "blocks"}})};
-  Table points{"points", "", "Places by name: A = [x, y], or A = {at = [x, y], size = s}.", false, {}};
-  Table line{"line", "", "A line of the drawing: an edge, a wall, a lining, a joint.", true, {}};
+      {"element", "element", Want::element, true, {}, "element type of all areas", {}, {}, {}},
+      {"formulation", "formulation", Want::formulation, false, {}, "formulation of the elements", {}, {}, {}},
+      drawn("size", Want::real, "edge length of elements where no point, line or area gives another", "length"),
+      drawn("growth", Want::real,
+            "growth of the edge length per unit of distance from a place with smaller elements"),
+      drawn("mesher", Want::code, "mesh generator", {}, {{0, "automatic"}, {1, "gmsh"}, {2, "blocks"}})};
+  Table points{"points",
+               "",
+               "Points with names: `A = [x, y]`, or `A = {at = [x, y], size = s}` with the edge length s of "
+               "elements at the point.",
+               false,
+               {}};
+  Table line{
+      "line", "", "A line of the drawing, such as a boundary, a wall, a lining or an interface.", true, {}};
   line.keys = {
-      drawn("name", Want::text, "name"),
-      drawn("points", Want::points, "names of points, or [x, y]; of an arc its start and end"),
-      drawn("shape", Want::code, "shape", {}, {{0, "polyline"}, {1, "arc"}, {2, "circle"}}),
-      drawn("centre", Want::point, "centre of an arc or circle"),
+      drawn("name", Want::text, "name of the line"),
+      drawn("points", Want::points,
+            "points of the line, by name or as [x, y]; of an arc its start and its end"),
+      drawn("shape", Want::code, "shape of the line", {}, {{0, "polyline"}, {1, "arc"}, {2, "circle"}}),
+      drawn("centre", Want::point, "centre of an arc or a circle"),
       drawn("radius", Want::real, "radius of a circle", "length"),
-      drawn("start_angle", Want::real, "where a circle begins, from the x axis", "deg"),
-      drawn("clockwise", Want::flag, "direction of an arc or circle"),
-      drawn("size", Want::real, "length of edges along it", "length"),
-      drawn("beam", Want::material, "material of a beam along it (wall, slab, lining)"),
-      drawn("bar", Want::material, "material of bars along it (geogrid, nail)"),
-      drawn("interface", Want::table, "joints beside it: a table, see [line.interface]"),
-      drawn("first_end", Want::code, "what the joint does at its first end inside the ground", {}, kEnds),
-      drawn("last_end", Want::code, "the same at its last end", {}, kEnds)};
+      drawn("start_angle", Want::real, "angle from the x axis at which a circle begins, counter-clockwise",
+            "deg"),
+      drawn("clockwise", Want::flag, "direction of an arc or a circle: true = clockwise"),
+      drawn("size", Want::real, "edge length of elements along the line", "length"),
+      drawn("beam", Want::material, "material of a beam along the line (wall, slab, lining)"),
+      drawn("bar", Want::material, "material of bars along the line (geogrid, nail)"),
+      drawn("interface", Want::table, "interfaces beside the line, see [line.interface]"),
+      drawn("first_end", Want::code,
+            "connection of both sides at the first end of an interface, if it is inside the ground", {}, kEnds),
+      drawn("last_end", Want::code,
+            "connection of both sides at the last end of an interface, if it is inside the ground", {}, kEnds)};
   Table interface {
-    "line.interface", "", "Joints between a line's beam and the ground, or of two bodies.", false, {}
+    "line.interface", "", "Interfaces between the structure of a line and the ground, or between two areas.",
+        false, {}
   };
   interface.keys = {
-      drawn("side", Want::code, "side, seen along the line", {}, {{1, "left"}, {2, "right"}, {3, "both"}}),
-      drawn("material", Want::material, "material of the joint"),
-      drawn("factor", Want::real, "in place of a material: share of the ground's cohesion and tan(phi)"),
+      drawn("side", Want::code, "side of the line, seen from its first point to its last", {},
+            {{1, "left"}, {2, "right"}, {3, "both"}}),
+      drawn("material", Want::material, "material of the interface"),
+      drawn("factor", Want::real,
+            "in place of a material: cohesion and tan(phi) of the interface, divided by those of the ground"),
       drawn("thickness", Want::real,
-            "of the layer whose stiffness the joint has; left out, a tenth of the size", "length")};
-  Table area{"area", "", "Ground of one material; it becomes a group of its name.", true, {}};
-  area.keys = {drawn("name", Want::text, "name"),
-               drawn("outline", Want::points, "points around it, or names of lines"),
-               drawn("holes", Want::outlines, "outlines of holes"),
-               drawn("size", Want::real, "longest edge in it", "length"),
-               drawn("material", Want::material, "material"),
+            "thickness of a layer of ground with the stiffness of the interface; blank = a tenth of the size "
+            "of the line",
+            "length")};
+  Table area{"area", "", "Ground of one material. It becomes a group with the name of the area.", true, {}};
+  area.keys = {drawn("name", Want::text, "name of the area"),
+               drawn("outline", Want::points, "points around the area, or names of lines"),
+               drawn("holes", Want::outlines, "outlines of the holes in the area"),
+               drawn("size", Want::real, "largest edge length of elements in the area", "length"),
+               drawn("material", Want::material, "material of the area"),
                drawn("second_material", Want::material,
-                     "material of the second law, of elements that have two: its pore water")};
-  Table bar{"bar", "", "An anchor, strut or spring from point to point.", true, {}};
-  bar.keys = {drawn("name", Want::text, "name"),
-              drawn("from", Want::point, "its first point"),
-              drawn("to", Want::point, "its second point; outside of the ground it gets a node of its own"),
-              drawn("material", Want::material, "material"),
-              {"element", "element", Want::element, false, {}, "bar2 or spring2; left out, bar2", {}, {}, {}}};
+                     "material of the pore water, for element types that need a second material")};
+  Table bar{"bar",
+            "",
+            "An anchor, strut or spring between two points. It becomes a group with the name of the bar.",
+            true,
+            {}};
+  bar.keys = {
+      drawn("name", Want::text, "name of the bar"),
+      drawn("from", Want::point, "first point of the bar, a name of [points]"),
+      drawn("to", Want::point,
+            "second point of the bar, a name of [points]; outside the ground it gets a node of its own"),
+      drawn("material", Want::material, "material of the bar"),
+      {"element", "element", Want::element, false, {}, "bar2 or spring2; blank = bar2", {}, {}, {}}};
   return {mesh, points, line, interface, area, bar};
 }
 
@@ -222,17 +244,21 @@ void add_places(std::vector<Table>& list) {
   for (Table& one : list) {
     const bool fixity = one.card == "fixity", load = one.card == "load", report = one.card == "report";
     if (fixity || report)
-      one.keys.push_back(drawn("line", Want::text, "in place of first and last: all nodes along a line"));
+      one.keys.push_back(
+          drawn("line", Want::text, "in place of first and last: name of a line, for all nodes along it"));
     if (fixity || report || load)
-      one.keys.push_back(drawn("point", Want::text, "in place of first and last: a point"));
+      one.keys.push_back(drawn("point", Want::text, "in place of first and last: name of a point"));
     if (report) {
       one.keys.push_back(drawn("from", Want::point, "in place of x and y: first end of the cut of a section"));
-      one.keys.push_back(drawn("to", Want::point, "in place of end_x and end_y: its second end"));
+      one.keys.push_back(drawn("to", Want::point, "in place of end_x and end_y: second end of the cut"));
     }
     if (one.card != "pressure") continue;
+    one.keys.push_back(drawn("line", Want::text,
+                             "in place of element and edge: name of a line; normal1 and shear1 act at its "
+                             "first point, normal2 and shear2 at its last"));
     one.keys.push_back(
-        drawn("line", Want::text, "in place of element and edge: a line, from its first point to its last"));
-    one.keys.push_back(drawn("side", Want::text, "of a line with ground on both sides: left or right"));
+        drawn("side", Want::text,
+              "side of the line on which the pressure acts, if there is ground on both sides: left or right"));
   }
 }
 

@@ -70,7 +70,8 @@ void Values::know_keys(const toml::table& given, const Table& table, const Mater
   for (const auto& [key, node] : given) {
     const std::string name(key.str());
     if (std::ranges::find(known, name) != known.end()) continue;
-    const std::string whose = table.key.empty() ? "a model file" : "a " + table.key;
+    const std::string whose =
+        table.key.empty() ? "a model file" : (table.key.find_first_of("aeiou") == 0 ? "an " : "a ") + table.key;
     error("S151", place(key.source()),
           whose + " has no key \"" + name + "\"" + did_you_mean(name, known) + "; known: " + list_of(known));
   }
@@ -86,6 +87,11 @@ void Values::list_names(const toml::table& root, Numbered& all) {
     const auto [at, added] = all.by_name.try_emplace(name->value_or(std::string()), last);
     if (!added) at->second = 0;
   }
+}
+
+bool Values::flag(const toml::node& node, const std::string& label) {
+  if (!node.is_boolean()) error("S152", where(node), "the " + label + " is true or false");
+  return node.value_or(false);
 }
 
 double Values::integer(const toml::node& node, const std::string& label) {
@@ -266,8 +272,7 @@ void Values::add_value(const Key& key, const toml::table& given, const toml::nod
       value = number(node, key.label, unit_of_key(key));
       break;
     case Want::flag:
-      if (!node.is_boolean()) error("S152", where(node), "the " + key.label + " is true or false");
-      value = node.value_or(false) ? 1.0 : 0.0;
+      value = flag(node, key.label) ? 1.0 : 0.0;
       break;
     case Want::code:
       value = code(node, key.label, key.codes);

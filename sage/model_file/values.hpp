@@ -49,6 +49,7 @@ class Values {
                                std::initializer_list<std::string_view> without = {});
   void add_value(const Key& key, const toml::table& given, const toml::node& node, std::vector<NewField>& to);
   double number(const toml::node& node, const std::string& label, const std::string& unit);
+  bool flag(const toml::node& node, const std::string& label);
   double integer(const toml::node& node, const std::string& label);
   double code(const toml::node& node, const std::string& label, const std::vector<CodeName>& codes);
   std::string text(const toml::node& node, const std::string& label);

@@ -172,7 +172,6 @@ class Finder final : public Trials {
   std::vector<std::size_t> materials_;             // whose strength is divided
   std::vector<std::vector<double>> strength_;      // their parameters at factor 1
   std::vector<std::vector<LawVariant>> variants_;  // likewise
-  std::vector<LawPtr> laws_before_;                // until the run has taken the new ones
   Eigen::VectorXd u_start_;                        // when the strengths began to fall
   Eigen::VectorXd lost_;                           // where the last attempt of a failed run of the stages went
   std::vector<double> lost_dissipation_;           // likewise
@@ -276,7 +275,7 @@ void Finder::set_factor(double factor) {
     material.variants = variants_[i];
     if (factor != 1.0 || options_.dilation == DilationRule::none)
       reduce_strength(material, {factor, options_.dilation});
-    laws_before_.push_back(std::move(material.law));
+    safety_.laws.push_back(std::move(material.law));
     material.law = make_law(material, model_.units);
   }
 }
@@ -350,7 +349,6 @@ void Finder::run_from_start(double factor) {
     safety_.profile.add(of_run.work.profile);
     return of_run;
   }();
-  laws_before_.clear();
   if (result.status == RunStatus::failed) throw AnalysisError(*result.code, result.reason);
   safety_.stopped = result.status == RunStatus::stopped;
   if (!safety_.stopped && safety_.trials.size() == before) take_run(result, last);
@@ -436,7 +434,6 @@ std::optional<double> Finder::next_factor() {
 }
 
 bool Finder::next(const TrialResult* last, const Solution& now) {
-  laws_before_.clear();
   if (last == nullptr) {
     u_start_ = *now.u;
     FactorTrial first;

@@ -83,6 +83,8 @@ struct Safety {
   // Motion and strain of the trial that shows the mechanism, as a state of the model: the upper end's, or where that
   // has none the last that stands; scaled to a displacement of 5 % of the mesh.  Null = no trial moved anything.
   std::unique_ptr<Frame> mechanism;
+  std::vector<LawPtr>
+      laws;  // of the trials before the last: states, also those of the mechanism, refer to theirs
   double mechanism_factor = 0.0;
   Profile profile;  // of all runs and trials
 

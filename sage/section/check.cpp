@@ -63,8 +63,8 @@ class DataCheck {
         add(SectionItem::line, i, fmt::format("a circle needs a positive radius, not {}", line.radius));
     } else if (line.points.size() < 2 || (line.shape == LineShape::arc && line.points.size() > 2)) {
       add(SectionItem::line, i,
-          fmt::format("a {} points, this line has {}",
-                      line.shape == LineShape::arc ? "arc needs two" : "polyline needs two or more",
+          fmt::format("{} points, this line has {}",
+                      line.shape == LineShape::arc ? "an arc needs two" : "a polyline needs two or more",
                       line.points.size()));
     } else if (line.shape == LineShape::arc) {
       check_arc(i, line);

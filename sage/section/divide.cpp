@@ -192,16 +192,87 @@ double squareness(const FlatMesh& mesh, const std::array<int, 4>& nodes) {
 
 }  // namespace
 
-void join_triangles(FlatMesh& mesh) {
-  std::map<Edge, std::vector<std::pair<int, int>>> of_edge;  // triangle and its corner across
+namespace {
+
+// Edges on arcs.  Two that meet on one circle are the straighter, the finer they become.
+class EdgesOfCircles {
+ public:
+  EdgesOfCircles(const Arrangement& arrangement, const FlatMesh& mesh) {
+    for (std::size_t p = 0; p < mesh.on_piece.size(); ++p) {
+      const Curve& curve = arrangement.pieces[p].curve;
+      const std::vector<int>& nodes = mesh.on_piece[p];
+      for (std::size_t k = 0; curve.arc && k + 1 < nodes.size(); ++k)
+        circle_[edge_of(nodes[k], nodes[k + 1])] = &curve;
+    }
+  }
+  bool flat(int a, int b, int c) const {
+    constexpr double kSame = 1e-6;  // of the radius
+    const auto one = circle_.find(edge_of(a, b)), other = circle_.find(edge_of(b, c));
+    if (one == circle_.end() || other == circle_.end()) return false;
+    const Curve &x = *one->second, &y = *other->second;
+    return (x.centre - y.centre).norm() <= kSame * x.radius &&
+           std::abs(x.radius - y.radius) <= kSame * x.radius;
+  }
+  template <std::size_t n>
+  bool any_flat(const std::array<int, n>& nodes) const {
+    for (std::size_t i = 0; i < n; ++i)
+      if (flat(nodes[i], nodes[(i + 1) % n], nodes[(i + 2) % n])) return true;
+    return false;
+  }
+
+ private:
+  std::map<Edge, const Curve*> circle_;
+};
+
+// By the edges: triangles, and their corner across.  Without edges of pieces.
+std::map<Edge, std::vector<std::pair<int, int>>> triangles_by_edge(const FlatMesh& mesh) {
+  std::map<Edge, std::vector<std::pair<int, int>>> of_edge;
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (std::size_t i = 0; i < 3; ++i)
       of_edge[edge_of(mesh.cells[c].nodes[(i + 1) % 3], mesh.cells[c].nodes[(i + 2) % 3])].emplace_back(
           static_cast<int>(c), static_cast<int>(i));
   for (const std::vector<int>& nodes : mesh.on_piece)
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) of_edge.erase(edge_of(nodes[k], nodes[k + 1]));
+  return of_edge;
+}
+
+// Of the triangle with corner `ear`, and its neighbour with corner `across`: the other diagonal where that leaves no ear.
+bool turn(const EdgesOfCircles& circles, FlatMesh& mesh, Cell& ear, std::size_t i, Cell& other, int across) {
+  constexpr double kThin = 0.05;
+  const int a = ear.nodes[(i + 2) % 3], b = ear.nodes[i], c = ear.nodes[(i + 1) % 3];
+  const Cell one{{a, b, across, -1}, ear.area}, two{{b, c, across, -1}, ear.area};
+  for (const Cell& made : {one, two})
+    if (worst_corner(mesh, made) < kThin || circles.any_flat<3>({made.nodes[0], made.nodes[1], made.nodes[2]}))
+      return false;
+  ear = one;
+  other = two;
+  return true;
+}
+
+}  // namespace
+
+void turn_ears(const Arrangement& arrangement, FlatMesh& mesh) {
+  const EdgesOfCircles circles(arrangement, mesh);
+  const auto of_edge = triangles_by_edge(mesh);
+  std::vector<char> turned(mesh.cells.size(), 0);
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+    for (std::size_t i = 0; i < 3 && turned[e] == 0; ++i) {
+      Cell& ear = mesh.cells[e];
+      const int next = ear.nodes[(i + 1) % 3], last = ear.nodes[(i + 2) % 3];
+      const auto both = of_edge.find(edge_of(next, last));
+      if (!circles.flat(last, ear.nodes[i], next) || both == of_edge.end() || both->second.size() != 2)
+        continue;
+      const auto& [o, across] = both->second[both->second[0].first == static_cast<int>(e) ? 1 : 0];
+      Cell& other = mesh.cells[o];
+      if (turned[o] == 0 && other.area == ear.area && turn(circles, mesh, ear, i, other, other.nodes[across]))
+        turned[e] = turned[o] = 1;
+    }
+}
+
+void join_triangles(const Arrangement& arrangement, FlatMesh& mesh) {
+  const EdgesOfCircles circles(arrangement, mesh);
   std::vector<Join> joins;
-  for (const auto& [edge, two] : of_edge) {
+  for (const auto& [edge, two] : triangles_by_edge(mesh)) {
     if (two.size() != 2) continue;
     const Cell& cell = mesh.cells[two[0].first];
     const Cell& other = mesh.cells[two[1].first];
@@ -210,7 +281,8 @@ void join_triangles(FlatMesh& mesh) {
                                    cell.nodes[(i + 2) % 3]};
     // Rounded, so that equal pairs keep their order on any processor.
     const double quality = std::round(1e6 * squareness(mesh, nodes));
-    if (quality > 0.15e6) joins.push_back({quality, two[0].first, two[1].first, nodes});
+    if (quality > 0.15e6 && !circles.any_flat(nodes))
+      joins.push_back({quality, two[0].first, two[1].first, nodes});
   }
   std::stable_sort(joins.begin(), joins.end(),
                    [](const Join& a, const Join& b) { return a.quality > b.quality; });

@@ -103,8 +103,9 @@ class Making {
       mesh_ = divide(arrangement_, sizes, edges_by_size(arrangement_, sizes, factor), false);
     } while (refine(crossed_arcs(arrangement_, mesh_)));
     fill_by_gmsh(section_, arrangement_, sizes, factor, mesh_);
+    turn_ears(arrangement_, mesh_);
     if (!quadrilaterals()) return;
-    join_triangles(mesh_);
+    join_triangles(arrangement_, mesh_);
     mesh_ = into_quadrilaterals(arrangement_, mesh_);
     smooth(mesh_, arrangement_.vertices.size());
   }

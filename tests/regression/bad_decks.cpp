@@ -388,7 +388,7 @@ void bad_supports(Cases& c) {
   c.push_back({"fixity_step_negative",
                left({"1", "7", "-3", "1", "0"}),
                "fixity_left:11-15",
-               {"node increment must not be negative"}});
+               {"increment of node numbers must not be negative"}});
   c.push_back({"fixity_released_before_any_stage",
                left({"1", "7", "3", "1", "-1"}),
                "fixity_left:21-25",
@@ -506,23 +506,21 @@ void bad_stages(Cases& c) {
                    .behind("pressure", "birth", card({"3", "3"})),
                "stage",
                {"group 3 is born twice"}});
-  c.push_back(
-      {"report_kind_unknown",
-       b.with("report", card({"7", "1", "7", "9", "1", "1"}, {"1."})),
-       "report:1-5",
-       {"the kind of report can't be 7", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
+  c.push_back({"report_kind_unknown",
+               b.with("report", card({"7", "1", "7", "9", "1", "1"}, {"1."})),
+               "report:1-5",
+               {"the kind of report can't be 7", "1 = triaxial test, 2 = mean displacement of nodes"}});
   // The card behind it looks like that of a point: the fault is the kind all the same.
-  c.push_back(
-      {"report_kind_unknown_before_a_point",
-       b.with("report", card({"7"})).behind("report", "point", card({}) + "        .5        .5middle"),
-       "report:1-5",
-       {"the kind of report can't be 7", "1 triaxial, 2 sums over nodes, 3 a point, 4 what flows through"}});
+  c.push_back({"report_kind_unknown_before_a_point",
+               b.with("report", card({"7"})).behind("report", "point", card({}) + "        .5        .5middle"),
+               "report:1-5",
+               {"the kind of report can't be 7", "1 = triaxial test, 2 = mean displacement of nodes"}});
   c.push_back({"point_behind_sums_over_nodes",
                b.with("report", card({"2", "", "7", "9"}))
                    .behind("report", "point", card({}) + "        .5        .5middle"),
                "point",
                {"reads as a point card", "report.kind == 3",
-                "is 2 (1 triaxial, 2 sums over nodes, 3 a point, 4 what flows"}});
+                "is 2 (1 = triaxial test, 2 = mean displacement of nodes"}});
   c.push_back({"report_without_height",
                b.with("report", card({"1", "1", "7", "9", "1", "1"}, {"0."})),
                "report:31-40",

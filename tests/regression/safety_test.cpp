@@ -32,6 +32,16 @@ TEST(SafetyCommand, SaysBothEndsAndWhy) {
   EXPECT_TRUE(has(read(folder / "out/weak.safety.lst"), "safety factor between 0.666"));
 }
 
+// The picture is drawn when all trials are over: the states that it shows refer to laws of their own trial.
+TEST(SafetyCommand, DrawsAMechanismWithDividedJoints) {
+  const fs::path folder = empty_folder("safety_joints");
+  const Finished run = sagefe(folder, "safety " SAGE_SOURCE_DIR
+                                      "/legacy_inputs/structures/sheet_pile/deck.dat"
+                                      " --reduce soil,joints --tolerance .01 -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(has(read(folder / "out/sheet_pile.mechanism.svg"), "</svg>"));
+}
+
 TEST(SafetyCommand, ProfileHasTheWorkOfEveryTrial) {
   const fs::path folder = empty_folder("safety_profile");
   write(folder / "weak.dat", collapse_deck().text());

@@ -1,11 +1,16 @@
 // Meshes of a drawing with arcs: finer ones follow the circle, and no longer the sides of the first mesh.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "sage/app/commands.hpp"
+#include "sage/mesh/subdivide.hpp"
 #include "sage/model/arc_sides.hpp"
+#include "sage/model/locate.hpp"
 #include "sage/model_file/model_file.hpp"
 #include "sage/section/section_mesh.hpp"
 #include "tests/studies/scenes/lame.hpp"
@@ -84,7 +89,7 @@ void expect_on_circles(const Model& model, std::size_t arcs) {
     for (int e = 0; e < group.elements(); ++e)
       for (const std::vector<int>& edge : group.element->edges()) {
         const int* const nodes = group.nodes_of(e);
-        if (!sides.contains(nodes[edge[0]], nodes[edge[1]])) continue;
+        if (!sides.centre(nodes[edge[0]], nodes[edge[1]])) continue;
         const double radius = model.mesh.x.col(nodes[edge[0]]).norm();
         for (const int local : edge) {
           EXPECT_NEAR(model.mesh.x.col(nodes[local]).norm(), radius, 1e-14);
@@ -93,6 +98,28 @@ void expect_on_circles(const Model& model, std::size_t arcs) {
       }
   EXPECT_GT(counted, 0);
   EXPECT_FALSE(has_parabolic_sides(model));
+}
+
+// Corners of elements on a circle around the origin; all sides between two of them follow it, and their nodes.
+std::size_t nodes_on_circle(const Model& model, double radius) {
+  const auto on = [&](int node) { return std::abs(model.mesh.x.col(node).norm() - radius) < 1e-12; };
+  const ArcSides sides(model.mesh);
+  std::size_t straight = 0, off = 0;
+  std::set<std::pair<double, double>> corners;
+  for (const Group& group : model.groups)
+    for (int e = 0; e < group.elements(); ++e)
+      for (const std::vector<int>& edge : group.element->edges()) {
+        const int* const nodes = group.nodes_of(e);
+        const int a = nodes[edge[0]], z = nodes[edge[1]];
+        if (!on(a) || !on(z) || a == z) continue;
+        straight += sides.centre(a, z) ? 0 : 1;
+        for (const int local : edge) off += on(nodes[local]) ? 0 : 1;
+        for (const int node : {a, z})
+          corners.emplace(std::round(1e9 * model.mesh.x(0, node)), std::round(1e9 * model.mesh.x(1, node)));
+      }
+  EXPECT_EQ(straight, 0u);
+  EXPECT_EQ(off, 0u);
+  return corners.size();
 }
 
 // Layers at a corner divide sides unevenly; elements of higher degree have more nodes inside a side.
@@ -110,7 +137,7 @@ TEST(ArcSides, LiningsAndJointsFollowTheCircle) {
 )";
   for (const char* const element : {"quad8", "quad4"}) {
     const Model model = model_of(ring(element, "automatic", lining), 2);
-    expect_on_circles(model, 5);
+    expect_on_circles(model, 3);
     int beams = 0;
     for (const Group& group : model.groups) {
       if (!group.structure()) continue;
@@ -118,6 +145,179 @@ TEST(ArcSides, LiningsAndJointsFollowTheCircle) {
       beams += group.elements();
     }
     EXPECT_GT(beams, 8);
+  }
+}
+
+// Where another line with joints meets a circle, the bodies beside it have nodes of their own, and all of these follow it:
+// a lining that a fault crosses.
+TEST(ArcSides, JointsThatCrossACircleFollowIt) {
+  if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
+  for (const char* const element : {"quad4", "quad8", "tri6"}) {
+    const std::string text = R"(
+geometry = "plane strain"
+units = {length = "m", force = "kN", stress = "kPa"}
+mesh = {element = ")" + std::string(element) +
+                             R"(", size = 3, mesher = "gmsh"}
+material = [
+  {name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3},
+  {name = "lining", law = "section_elastic", axial_stiffness = 1, bending_stiffness = 1},
+  {name = "joint", law = "goodman", normal_stiffness = 100, shear_stiffness = 100},
+]
+points = {centre = [0, 0], sw = [-10, -10], se = [10, -10]}
+line = [
+  {name = "lining", shape = "circle", centre = "centre", radius = 2, size = 1.3, beam = "lining", interface = {side = "both", material = "joint"}},
+  {name = "fault", points = [[-10, 0], [10, 0]], beam = "lining", interface = {side = "both", material = "joint"}},
+]
+area = [{name = "ground", outline = ["sw", "se", [10, 10], [-10, 10]], material = "soil"}]
+fixity = [{point = "sw", x = "fixed", y = "fixed"}, {point = "se", y = "fixed"}]
+[[stage]]
+)";
+    const std::size_t first = nodes_on_circle(model_of(text, 0), 2.0),
+                      finer = nodes_on_circle(model_of(text, 2), 2.0);
+    EXPECT_EQ(finer, 4 * first);
+  }
+}
+
+// Joints that end on the inner circle of a ring divide its sides too.
+TEST(ArcSides, JointsThatEndAtACircleFollowIt) {
+  if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
+  for (const char* const element : {"quad4", "quad8"}) {
+    const std::string text = R"(
+geometry = "plane strain"
+units = {length = "m", force = "kN", stress = "kPa"}
+mesh = {element = ")" + std::string(element) +
+                             R"(", size = 0.8, mesher = "gmsh"}
+material = [
+  {name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3},
+  {name = "joint", law = "goodman", normal_stiffness = 100, shear_stiffness = 100},
+]
+points = {centre = [0, 0]}
+line = [
+  {name = "hole", shape = "circle", centre = "centre", radius = 1},
+  {name = "outer", shape = "circle", centre = "centre", radius = 3},
+  {name = "east", points = [[1, 0], [3, 0]], interface = {side = "both", material = "joint"}},
+  {name = "west", points = [[-3, 0], [-1, 0]], interface = {side = "both", material = "joint"}},
+]
+area = [{name = "ring", outline = ["outer"], holes = [["hole"]], material = "soil"}]
+fixity = [{line = "outer", x = "fixed", y = "fixed"}]
+[[stage]]
+)";
+    const Model model = model_of(text, 2);
+    for (int i = 0; i < model.mesh.nodes(); ++i) {
+      const double radius = model.mesh.x.col(i).norm();
+      EXPECT_GE(radius, 1.0 - 1e-14);
+      EXPECT_LE(radius, 3.0 + 1e-13);
+    }
+  }
+}
+
+// Beyond an open end of a joint the ground is whole: two elements share the first edge but for the pair at the end, and what
+// divides it divides both.  Nodes on the edge were made twice, so that the ground stayed open over one edge of the first mesh.
+TEST(ArcSides, TheGroundIsWholeBeyondOpenEndsOfJoints) {
+  if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
+  for (const char* const element : {"quad4", "quad8", "tri6"})
+    for (const char* const shape :
+         {"points = [[-2, 0], [2, 0]]", "shape = \"arc\", points = [[2, 0], [0, 2]], centre = \"centre\""}) {
+      const std::string text = fmt::format(R"(
+geometry = "plane strain"
+units = {{length = "m", force = "kN", stress = "kPa"}}
+mesh = {{element = "{}", size = 1.5, mesher = "gmsh"}}
+material = [
+  {{name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3}},
+  {{name = "lining", law = "section_elastic", axial_stiffness = 1, bending_stiffness = 1}},
+  {{name = "joint", law = "goodman", normal_stiffness = 100, shear_stiffness = 100}},
+]
+points = {{centre = [0, 0]}}
+line = [
+  {{name = "joint", {}, beam = "lining", first_end = "open", last_end = "open", interface = {{side = "both", material = "joint"}}}},
+  {{name = "bottom", points = [[-5, -5], [5, -5]]}},
+]
+area = [{{name = "ground", outline = [[-5, -5], [5, -5], [5, 5], [-5, 5]], material = "soil"}}]
+fixity = [{{line = "bottom", x = "fixed", y = "fixed"}}]
+[[stage]]
+)",
+                                           element, shape);
+      for (const int refine : {0, 1, 2}) {
+        const Model model = model_of(text, refine);
+        std::set<int> of_joints;
+        for (const Group& group : model.groups)
+          if (group.interface()) of_joints.insert(group.nodes.begin(), group.nodes.end());
+        std::map<std::pair<double, double>, int> others;
+        for (int i = 0; i < model.mesh.nodes(); ++i)
+          if (!of_joints.contains(i))
+            ++others[{std::round(1e8 * model.mesh.x(0, i)), std::round(1e8 * model.mesh.x(1, i))}];
+        for (const auto& [place, count] : others)
+          EXPECT_EQ(count, 1) << element << ' ' << shape << ' ' << refine << " (" << place.first << ' '
+                              << place.second;
+      }
+    }
+}
+
+// The places where a point lies that typed digits put a little off the circle: the sides that end there go on around the
+// centre, and the error of Lame's ring is that of its mesh.
+TEST(ArcSides, EndsOfTypedDigitsAreOnTheirCircles) {
+  std::string text = ring("quad8", "blocks");
+  text.replace(text.find("d = [0, 1]"), 10, "d = [0, 1.00002]");
+  scenes::WholeRun run = bench().run(model_of(text, 2));
+  ASSERT_TRUE(run.completed()) << run.failure;
+  EXPECT_EQ(run.model->mesh.arcs.size(), 2u);
+  EXPECT_LT(scenes::lame_error(run, scenes::LameBody::sector, 0.3),
+            5e-5);  // 2e-5 of the place, 2e-5 of the mesh
+}
+
+// A stiff core in a square, with circles that begin at several angles: no element has two sides on the circle, which would
+// make its corner between them flatter in each finer mesh, and no place of the circle is a singular corner.
+TEST(ArcSides, NoElementHasTwoSidesOnACircle) {
+  if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
+  for (const char* const element : {"quad4", "quad8", "tri6"})
+    for (const double angle : {0.0, 10.0, 33.0, 77.0}) {
+      const std::string text = fmt::format(R"(
+geometry = "plane strain"
+units = {{length = "m", force = "kN", stress = "kPa"}}
+mesh = {{element = "{}", size = 1.5, mesher = "gmsh"}}
+material = [
+  {{name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3}},
+  {{name = "core", law = "linear_elastic", youngs_modulus = 3, poissons_ratio = 0.3}},
+]
+points = {{centre = [0, 0]}}
+line = [
+  {{name = "rim", shape = "circle", centre = "centre", radius = 1, start_angle = {}}},
+  {{name = "bottom", points = [[-4, -4], [4, -4]]}},
+  {{name = "left", points = [[-4, -4], [-4, 4]]}},
+]
+area = [
+  {{name = "ground", outline = [[-4, -4], [4, -4], [4, 4], [-4, 4]], holes = [["rim"]], material = "soil"}},
+  {{name = "inside", outline = ["rim"], material = "core"}},
+]
+fixity = [{{line = "bottom", y = "fixed"}}, {{line = "left", x = "fixed"}}]
+[[stage]]
+)",
+                                           element, angle);
+      const Model model = model_of(text, 0);
+      const ArcSides sides(model.mesh);
+      for (const Group& group : model.groups)
+        for (int e = 0; e < group.elements(); ++e) {
+          const int* const nodes = group.nodes_of(e);
+          int on_circle = 0;
+          for (const std::vector<int>& edge : group.element->edges())
+            on_circle += sides.centre(nodes[edge[0]], nodes[edge[1]]) ? 1 : 0;
+          EXPECT_LE(on_circle, 1) << element << ' ' << angle;
+        }
+      EXPECT_TRUE(mesh::singular_corners(model).empty()) << element << ' ' << angle;
+    }
+}
+
+// The first mesh is a polygon within the circle, the body of the drawing is not.
+TEST(ArcSides, PointsOnADrawnCircleAreInTheMesh) {
+  for (const char* const element : {"quad4", "quad8", "tri3"}) {
+    const Model model = model_of(ring(element, "blocks"), 0);
+    const Locator locator(model);
+    for (const double angle : {0.1, 0.3, 0.8, 1.3})
+      for (const double radius : {1.0, 2.0}) {
+        const auto at = [&](double r) { return locator.at(r * Vector2(std::cos(angle), std::sin(angle))); };
+        EXPECT_EQ(at(radius).size(), 1u) << element << ' ' << angle << ' ' << radius;
+        EXPECT_TRUE(at(2.001).empty());
+      }
   }
 }
 

@@ -1069,7 +1069,7 @@ TEST(Consolidation, BadInputIsRefusedByName) {
             std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 0; }).find("pore_flow"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 1; }).find("pore_flow"), std::string::npos);
-  EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 9; }).find("S225"), std::string::npos);
+  EXPECT_NE(with([](ModelInput& i) { i.groups[0].second_material = 9; }).find("S204"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.groups[0].material = 2; }).find("S225"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.units.water_unit_weight = 0.0; }).find("water"), std::string::npos);
   EXPECT_NE(with([](ModelInput& i) { i.materials[1].parameters["permeability"] = 0.0; }).find("permeability"),

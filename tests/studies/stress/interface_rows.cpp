@@ -278,24 +278,26 @@ void condensed_border(Sweep& s) {
 std::vector<Row> interface_rows() {
   const std::string family = "Interfaces";
   return {
-      {"interface-stiffness", family, "kn from 1 to 1e12 E/a, two rings in contact",
+      {"interface-stiffness", family, "kn from 1 to 1e12 E/a, two rings in contact; a is the inner radius",
        "Lame on both rings, closed form. Allowed: 1e-12 + 100 u kn a/E for the pressure, a tenth for the "
        "displacement; "
        "u = 1.1e-16",
        "kn a/E", true, normal_stiffness},
       {"interface-patch", family, "kn from 1 to 1e12 E/a, a joint at 0, 30 and 90 degrees",
-       "uniform traction, closed form. Allowed: 1e-7 (coordinates of ten columns) + 100 u kn a/E", "kn a/E",
-       true, inclined_patch},
+       "uniform traction, closed form. Allowed: 1e-7, since a coordinate on a card has ten columns, + 100 u kn "
+       "a/E",
+       "kn a/E", true, inclined_patch},
       {"interface-bonded", family, "kn to 1e12: the limit is the bonded ring",
        "Lame's one ring. Allowed: the interface's own flexibility 2 E/(kn a), and rounding 10 u kn a/E",
        "kn a/E", true, bonded_limit},
       {"interface-axis", family, "a pair of nodes on the axis, the three rules, kn h/E = 50",
-       "independent hp solution -0.91972; allowed 2e-3, the mesh's error. Newton-Cotes must be announced", "",
-       false, axis_rules},
+       "normal traction on the axis / (E x axial strain) = -0.91972, an independent hp solution. Allowed: "
+       "2e-3, the mesh's error. Newton-Cotes must be announced",
+       "", false, axis_rules},
       {"interface-condensed", family,
        "kn h/E from 1e-9 to 1e9, the linear body condensed onto the joint's border",
-       "the whole system, without condensation, in every increment. Allowed: 1e-9 (both end at an equilibrium "
-       "of 1e-8 that converges quadratically) + 100 u kn h/E; h = 1, the unit of length",
+       "the whole system, without condensation, in every increment. Allowed: 1e-9 + 100 u kn h/E, with h = 1. "
+       "1e-9, because each run ends at a relative residual below 1e-8 and converges quadratically",
        "kn h/E", true, condensed_border},
       {"sliding-block", family, "friction of an interface from 0 to 75 degrees", "W tan phi, closed form",
        "friction angle [degrees]", true, sliding_block},

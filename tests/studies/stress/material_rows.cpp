@@ -383,8 +383,10 @@ std::vector<Row> material_rows() {
       {"poisson-locking", family, "nu to 0.4999999: elements that lock are announced",
        "a warning for nu > 0.45; error against Lame's cylinder", "", false, poisson_locking},
       {"poisson-refused", family, "nu = 0.5 and beyond", "-1 < nu < 1/2", "", false, poisson_refused},
-      {"chapter-replay", family, "the source chapter's bonded specimen, nu = 0.495, both ways",
-       "chapter 1.2403 (locked); converged hp solution 1.190558, 0.3 %", "", false, chapter_replay},
+      {"chapter-replay", family, "bonded specimen of the source chapter, nu = 0.495, quad4 full and b-bar",
+       "apparent modulus / E: 1.2403 of the chapter (quad4 full, locked); 1.190558 of a converged hp solution "
+       "(b-bar, allowed 0.3 %)",
+       "", false, chapter_replay},
       {"bonded-cylinder", family, "nu to 0.4999999: bonded ends, b-bar",
        "independent hp solutions (the limit nu = 1/2 for the last), 40 x 40 elements. Allowed: 0.3 %",
        "1 - 2 nu", true, bonded_cylinder},

@@ -140,6 +140,14 @@ std::string to_markdown(const std::vector<Row>& rows, const std::vector<RowResul
       "diagnostic "
       "are a FAIL. Digits lost = log10(error / 1.1e-16), of 16. Errors are relative to the reference of the "
       "row.");
+  page.prose(
+      "The first table gives the largest number of lost digits of each row. It is large, and the row is still "
+      "ok, where the error is that of the mesh, or where sagefe must announce a wrong result. [The "
+      "manual](manual/stress.md) describes the command.");
+  page.prose(
+      "u = 1.1e-16 is the unit of rounding. Laws and cones have their numbers on cards: law 3 is "
+      "Drucker-Prager, whose [cones](theory/drucker_prager.md) are 1 to 5, and law 4 is Mohr-Coulomb. The "
+      "*source chapter* is chapter 7 of a publication on the program SAGE ([figures](manual/figures.md)).");
   page.prose(fmt::format("{} rows, {} failed.", rows.size(), failed));
   page.table({"row", "what is swept", "trials", "digits lost", "verdict"});
   for (std::size_t i = 0; i < rows.size(); ++i)

@@ -246,8 +246,8 @@ std::vector<Row> stage_rows() {
       {"failed-step", family, "a step that fails and is halved", "the direct half steps, bit for bit", "",
        false, failed_step},
       {"water-bulk", family, "bulk of pore water to 1e12 of the shear modulus",
-       "Lame's cylinder of the undrained ratio; quad8 reduced. Allowed: 100 u K_w/n / G up to 1e8, and 1e-8 of "
-       "ten columns",
+       "Lame's cylinder with the undrained Poisson's ratio; quad8 reduced. Allowed: 100 u K_w/n / G up to 1e8, "
+       "and 1e-8, since a number on a card has ten columns",
        "K_w/n over G", true, water_bulk},
       {"dry-and-submerged", family, "ground that is dry above and wet below a level, layer by layer",
        "settlement of a column, closed form. Allowed: 1e-10; 1e-2 where the level lies within an element", "",

@@ -350,20 +350,21 @@ void wrong_sides(Sweep& s) {
 
 std::vector<Row> structure_rows() {
   const std::string family = "Structures";
-  return {{"beam-rigid", family, "a raft on soil, EA = EI = GA from 1e2 to 1e14 E L^3",
-           "the soil's nodes there moved as a rigid body, beyond its own flexibility, 20/EI, and rounding, 100 "
-           "u EI; singular, and called so, from 1e13 on",
-           "EI", true, rigid},
-          {"beam-bar", family, "the same raft, EI = GA from 1e-2 to 1e-18 E L^3, EA = 10 E L",
-           "a bar in its place. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, true); }},
-          {"beam-nothing", family, "the same raft, EA = EI = GA from 1e-2 to 1e-18",
-           "the soil without it. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, false); }},
-          {"wall-variants", family,
-           "wall with strut and joints on both sides: mirror, numbers, order, units, reversed beams",
-           "the same wall in its plain form: u, N, Q, M and the strut's force. Allowed: 1e-10", "", false,
-           wall_variants},
-          {"wall-sides", family, "a joint beside a wall with its sides swapped", "the message that names it",
-           "", false, wrong_sides}};
+  return {
+      {"beam-rigid", family, "a raft on soil, EA = EI = GA from 1e2 to 1e14 E L^3",
+       "the soil alone, whose nodes under the raft move as a rigid body. Allowed: 20/EI, the flexibility of "
+       "the raft, and 100 u EI, rounding. From 1e13 on sagefe must call the matrix singular",
+       "EI", true, rigid},
+      {"beam-bar", family, "the same raft, EI = GA from 1e-2 to 1e-18 E L^3, EA = 10 E L",
+       "a bar in its place. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, true); }},
+      {"beam-nothing", family, "the same raft, EA = EI = GA from 1e-2 to 1e-18",
+       "the soil without it. Allowed: 20 EI + 1e-12", "EI", true, [](Sweep& s) { soft(s, false); }},
+      {"wall-variants", family,
+       "wall with strut and joints on both sides: mirror, numbers, order, units, reversed beams",
+       "the same wall in its plain form: u, N, Q, M and the strut's force. Allowed: 1e-10", "", false,
+       wall_variants},
+      {"wall-sides", family, "a joint beside a wall with its sides swapped", "the message that names it", "",
+       false, wrong_sides}};
 }
 
 }  // namespace sage::stress

@@ -194,7 +194,8 @@ TEST(Time, ALayoutMayGiveTheDuration) {
   };
   replace(toml, "(10I5,3F10.0)", "(10I5,2F10.0,2F5.0)");
   const std::string tolerance =
-      "{ name = \"tolerance\", label = \"tolerance of equilibrium\", codes = \"0 gives 1e-8\" },";
+      "{ name = \"tolerance\", label = \"tolerance of equilibrium\", codes = \"largest unbalanced force in "
+      "relation to the forces of the model; 0 = 1e-8\" },";
   replace(toml, tolerance, tolerance + "\n    { name = \"duration\", label = \"duration of the stage\" },");
   const Layout layout = load_layout_text(toml, "timed.toml");
   DeckWriter deck = column(90, {kE, 0.0, kTau}, 2);

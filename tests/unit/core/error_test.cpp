@@ -25,6 +25,18 @@ TEST(Diagnostics, CountsBySeverity) {
   EXPECT_EQ(d.list().size(), 3u);
 }
 
+// A fixity along a line is a card for each node.
+TEST(Diagnostics, ListsTheSameMistakeOnce) {
+  Diagnostics d;
+  for (int node = 0; node < 3; ++node)
+    for (const int column : {5, 9}) d.error("S117", {"a.dat", 3, column, column}, "one");
+  d.error("S117", {"a.dat", 3, 5, 5}, "two");
+  d.error("S117", {"a.dat", 3, 0, 0}, "no place");
+  d.error("S117", {"a.dat", 3, 0, 0}, "no place");
+  EXPECT_EQ(d.errors(), 9);
+  EXPECT_EQ(d.list().size(), 5u);
+}
+
 TEST(InputError, ShowsTheFirstError) {
   Diagnostics d;
   d.warning("S122", {"a.dat", 2, 0, 0}, "two");

@@ -145,8 +145,8 @@ TEST(Diagnostics, NumbersThatAreNone) {
       (Lines{"deck.dat:10:16-25: error: \"NaN\" is not a finite number (node card, x or radius, length) [S121]",
              "deck.dat:10:26-35: error: \"1e400\" is too large for a number (node card, y or angle, "
              "length or degrees) [S121]",
-             "deck.dat:10:36-44: error: \"Infinity\" is not a finite number (node card, last interval / "
-             "first interval) [S121]"}));
+             "deck.dat:10:36-44: error: \"Infinity\" is not a finite number (node card, last interval divided "
+             "by the first interval) [S121]"}));
   EXPECT_EQ(messages(with_line(10, "   25    1    0     1e308      0.05       0.5")), Lines{});
   EXPECT_EQ(messages(with_line(10, "   25    1    0     1.5E         5       0.5")),
             (Lines{"deck.dat:10:16-25: error: \"1.5E\" has an exponent letter without an exponent (node card, "
@@ -156,10 +156,10 @@ TEST(Diagnostics, NumbersThatAreNone) {
 TEST(Diagnostics, MissingValues) {
   EXPECT_EQ(messages(with_line(10, "         1    0      0.05      0.05       0.5")),
             (Lines{"deck.dat:10:1-5: error: a value is missing (node card, node number) [S115]"}));
-  EXPECT_EQ(
-      messages(with_line(12, "    1    4")),
-      (Lines{"deck.dat:12: error: a value is missing (fill card, rows) [S115]",
-             "deck.dat:12: error: a value is missing (fill card, number increment from row to row) [S115]"}));
+  EXPECT_EQ(messages(with_line(12, "    1    4")),
+            (Lines{"deck.dat:12: error: a value is missing (fill card, number of rows of elements) [S115]",
+                   "deck.dat:12: error: a value is missing (fill card, increment of node numbers from row to "
+                   "row) [S115]"}));
 }
 
 TEST(Diagnostics, AllMistakesInOnePass) {

@@ -280,6 +280,23 @@ TEST(ModifiedCamClay, HugeIncrementsAndExtremeParameters) {
   EXPECT_GE(answered, 5500);
 }
 
+// Beside normal compression a small shear strain gives a shear stress in proportion, however small it is.  The surface was
+// followed to 1e-12 of p_c, and no deviator below that had a digit.
+TEST(ModifiedCamClay, ASmallDeviatorKeepsItsDigits) {
+  for (const double G : {0.0, 2000.0}) {
+    const auto law = clay(1.0, {0.0, 0.0, G});
+    const auto shear_of = [&](double gamma) {
+      const Vector4 deps(-1e-3, -1e-3, -1e-3, gamma);
+      return test::update<4>(*law, kIsotropic, deps, test::initial_history<4>(*law, kIsotropic)).sigma[3] /
+             gamma;
+    };
+    const double stiffness = shear_of(1e-7);
+    EXPECT_GT(stiffness, 0.0);
+    for (const double gamma : {1e-9, 1e-11, 1e-13, 1e-15, 1e-20, 1e-60})
+      EXPECT_NEAR(shear_of(gamma), stiffness, 1e-6 * stiffness) << G << ' ' << gamma;
+  }
+}
+
 // A thousand loops of unloading and reloading leave the state where it was.
 TEST(ModifiedCamClay, CyclesDoNotDrift) {
   const auto law = clay(1.0);

@@ -249,6 +249,39 @@ TEST(ModelFile, AJointIsNotJoinedAtItsEnd) {
   }
 }
 
+// What a drawing has no use for could be meant otherwise, so it is not passed over.
+TEST(ModelFile, MistakesInDrawingsAreNamedOnce) {
+  struct Mistake {
+    const char *old, *now, *code, *says;
+  };
+  const std::string arc = "\n[[line]]\nname = \"arc\"\nshape = \"arc\"\npoints = [[1, 0], [0, 1]]\n";
+  const std::string drawing = kJoint + arc + "centre = [0, 0]\nclockwise = false\n";
+  for (const Mistake& mistake :
+       {Mistake{"centre = [0, 0]\n", "", "S155", "an arc needs its centre"},
+        Mistake{"clockwise = false", "clockwise = \"yes\"", "S152", "is true or false"},
+        Mistake{"clockwise = false", "radius = 2", "S152", "an arc has no radius"},
+        Mistake{"[[1, 0], [0, 1]]", "[[1, 0]]", "S254", "an arc needs two points"},
+        Mistake{"points = [[0, 0], [4, 0]]", "points = [[0, 0], [4, 0]]\ncentre = [1, 1]", "S152",
+                "a polyline has no centre"},
+        Mistake{"shape = \"arc\"", "shape = \"circle\"\nradius = 2", "S152", "a circle has no points"},
+        Mistake{"material = \"rock\"", "material = \"rock\"\nholes = \"joint\"", "S152", "list of outlines"},
+        Mistake{nullptr, "point = [4, 0]", "S153", "give it a name in [points]"}}) {
+    const bool of_joint = mistake.old == nullptr;  // by itself: places are known only in a mesh
+    std::string text = of_joint ? kJoint : drawing;
+    const std::string old = of_joint ? "line = \"base\"" : mistake.old;
+    text.replace(text.find(old), old.size(), mistake.now);
+    try {
+      model_of(text);
+      ADD_FAILURE() << "taken: " << mistake.now;
+    } catch (const InputError& error) {
+      const std::vector<Diagnostic>& found = error.diagnostics().list();
+      ASSERT_EQ(found.size(), 1u) << error.what();
+      EXPECT_EQ(to_string(found[0].code), mistake.code) << error.what();
+      EXPECT_NE(found[0].message.find(mistake.says), std::string::npos) << error.what();
+    }
+  }
+}
+
 // Two layers with nu = 0 between smooth sides settle by p (h1/E1 + h2/E2), whatever the mesh: 80 (1/1e4 + .5/2e4) = .01.
 // A joint that lies across them adds p/k_n = 80/1e5.
 TEST(ModelFile, ADrawnColumnSettlesAsItsClosedForm) {
