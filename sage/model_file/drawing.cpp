@@ -178,8 +178,9 @@ void Drawing::read_lines(const toml::table& root) {
     else
       values_.error("S155", values_.where(*one), "a line needs its name");
     more.name = line.name;
+    const int errors = values_.problems.errors();
     line.shape = static_cast<LineShape>(code_of(values_, *one, "shape", "line"));
-    check_shape(*one, line.shape);
+    if (values_.problems.errors() == errors) check_shape(*one, line.shape);
     if (const toml::node* points = one->get("points")) {
       if (const toml::array* list = points->as_array())
         for (const toml::node& point : *list) line.points.push_back(point_of(point));
@@ -328,12 +329,18 @@ void Drawing::add_structure(const Line& line, const LineMesh& mesh) {
   const auto step = static_cast<std::size_t>(mesh_.nodes_per_edge - 1);
   const std::string element = std::string(beam ? "beam" : "bar") + (step == 1 ? "2" : "3");
   const SourcePosition where = values_.where(*line.at);
-  const int group = add_group(line.name, line.name, values_.catalogue.elements.code_of(element), 0,
-                              beam ? line.beam_material : line.bar_material, where);
+  const int code = values_.catalogue.elements.code_of(element);
+  const ElementEntry* const entry = values_.catalogue.elements.find(code);
+  const int group =
+      add_group(line.name, line.name, code, 0, beam ? line.beam_material : line.bar_material, where);
   for (std::size_t at = 0; at + step < mesh.beam.size(); at += step) {
     std::vector<int> nodes{mesh.beam[at], mesh.beam[at + step]};
     if (step == 2) nodes.push_back(mesh.beam[at + 1]);
     add_element(group, nodes, where);
+    for (const ElementUnknown& unknown : entry->unknowns)
+      for (std::size_t local = 0; local < nodes.size(); ++local)
+        if (unknown.nodes.empty() || std::ranges::count(unknown.nodes, static_cast<int>(local)) > 0)
+          nodes_with_[unknown.field.name].insert(number_of(nodes[local]));
   }
 }
 
@@ -533,15 +540,18 @@ std::vector<int> Drawing::nodes_along(const toml::node& node) {
 
 std::vector<int> Drawing::with_unknown(std::vector<int> nodes, const std::string& unknown) const {
   if (entry_ == nullptr) return nodes;
+  const auto of_structures = nodes_with_.find(unknown);
+  std::set<int> have = of_structures != nodes_with_.end() ? of_structures->second : std::set<int>();
   const auto is_wanted = [&](const ElementUnknown& one) { return one.field.name == unknown; };
-  const auto found = std::ranges::find_if(entry_->unknowns, is_wanted);
-  if (found == entry_->unknowns.end() || found->nodes.empty()) return nodes;
-  std::set<int> have;
-  const auto size = static_cast<std::size_t>(mesh_.nodes_per_element());
-  for (const AreaMesh& area : mesh_.areas)
-    for (std::size_t at = 0; at < area.nodes.size(); at += size)
-      for (const int local : found->nodes)
-        have.insert(number_of(area.nodes[at + static_cast<std::size_t>(local)]));
+  if (const auto found = std::ranges::find_if(entry_->unknowns, is_wanted); found != entry_->unknowns.end()) {
+    if (found->nodes.empty()) return nodes;
+    const auto size = static_cast<std::size_t>(mesh_.nodes_per_element());
+    for (const AreaMesh& area : mesh_.areas)
+      for (std::size_t at = 0; at < area.nodes.size(); at += size)
+        for (const int local : found->nodes)
+          have.insert(number_of(area.nodes[at + static_cast<std::size_t>(local)]));
+  }
+  if (have.empty()) return nodes;  // the model builder says that no element has it
   std::erase_if(nodes, [&](int node) { return !have.contains(node); });
   return nodes;
 }

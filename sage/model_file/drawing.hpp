@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 
 #include "sage/model_file/values.hpp"
 #include "sage/section/section_mesh.hpp"
@@ -36,7 +37,7 @@ class Drawing {
   // Numbers of the nodes at a point or along a line, by name.  Empty, and an error, where there is none.
   std::vector<int> nodes_at(const toml::node& point);
   std::vector<int> nodes_along(const toml::node& line);
-  // Of those nodes the ones that have this unknown, where elements of areas have it at some nodes only.
+  // Of those nodes the ones that have this unknown: of a lining with joints, the lining's have rotations, the ground's none.
   std::vector<int> with_unknown(std::vector<int> nodes, const std::string& unknown) const;
   // Edges of bodies along a line, on its left, its right, or the only side where there are any.
   std::vector<DrawnEdge> edges_along(const toml::node& line, const toml::node* side);
@@ -101,6 +102,7 @@ class Drawing {
   std::vector<Line> lines_;
   std::vector<const toml::table*> areas_;
   std::vector<int> area_material_, area_second_material_, area_group_, first_element_;  // by area
+  std::map<std::string, std::set<int>> nodes_with_;        // of structures, by the name of an unknown
   std::map<std::string, std::vector<int>> joints_beside_;  // groups by name of the area
   std::map<std::pair<std::string, int>, int>
       joint_materials_;  // made by a factor, by line and material of the ground

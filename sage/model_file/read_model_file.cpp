@@ -200,8 +200,13 @@ bool Reader::add_at_place(const toml::table& one, const Table& cards, int owner)
   const toml::node& place = point != nullptr ? *point : *line;
   if (!is_drawn(place)) return true;
   std::vector<int> nodes = point != nullptr ? drawing_->nodes_at(place) : drawing_->nodes_along(place);
-  if (const toml::node* unknown = one.get("unknown"))
-    nodes = drawing_->with_unknown(std::move(nodes), unknown->value_or(std::string()));
+  if (const toml::node* unknown = one.get("unknown"); unknown != nullptr && !nodes.empty()) {
+    const std::string name = unknown->value_or(std::string());
+    nodes = drawing_->with_unknown(std::move(nodes), name);
+    if (nodes.empty())
+      values_.error("S235", values_.where(*unknown),
+                    "no element at this place of the drawing has the unknown " + name);
+  }
   std::vector<NewField> card = values_.fields(one, cards, {"first", "last", "step"});
   card.insert(card.begin(), {"first", 0.0, values_.where(place), {}});
   for (const int node : nodes) {

@@ -211,6 +211,51 @@ fixity = [{line = "outer", x = "fixed", y = "fixed"}]
   }
 }
 
+// Half of a lining with joints, whose ends can't turn on the line of symmetry: of the nodes there the lining's alone have a
+// rotation.  Its ring force and moment are those of the whole.
+TEST(ArcSides, RotationsOfHalfALiningAreHeldAtItsEnds) {
+  if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
+  const auto moment_of = [](bool half) {
+    const std::string lining = half ? R"(shape = "arc", points = ["invert", "crown"], centre = "centre")"
+                                    : R"(shape = "circle", centre = "centre", radius = 2)";
+    const std::string left = half ? "0" : "-8";
+    const std::string text = fmt::format(R"(
+geometry = "plane strain"
+units = {{length = "m", force = "kN", stress = "kPa"}}
+mesh = {{element = "quad8", size = 1.2, mesher = "gmsh"}}
+material = [
+  {{name = "soil", law = "linear_elastic", youngs_modulus = 1e4, poissons_ratio = 0.3}},
+  {{name = "lining", law = "section_elastic", axial_stiffness = 1e6, bending_stiffness = 1e4}},
+  {{name = "joint", law = "goodman", normal_stiffness = 1e6, shear_stiffness = 1e3}},
+]
+points = {{centre = [0, 0], crown = [0, 2], invert = [0, -2]}}
+line = [
+  {{name = "lining", {0}, size = 0.5, beam = "lining", interface = {{side = "both", material = "joint"}}}},
+  {{name = "left", points = [[{1}, -8], [{1}, 8]]}},
+  {{name = "right", points = [[8, -8], [8, 8]]}},
+  {{name = "bottom", points = [[{1}, -8], [8, -8]]}},
+  {{name = "top", points = [[8, 8], [{1}, 8]]}},
+]
+area = [{{name = "ground", outline = [[{1}, -8], [8, -8], [8, 8], [{1}, 8]], material = "soil"}}]
+fixity = [{{line = "left", x = "fixed"}}, {{line = "right", x = "fixed"}}, {{line = "bottom", y = "fixed"}}{2}]
+[[stage]]
+pressure = [{{line = "top", normal1 = 100, normal2 = 100}}]
+)",
+                                         lining, left,
+                                         half ? R"(, {point = "crown", unknown = "rotation", x = "fixed"},
+  {point = "invert", unknown = "rotation", x = "fixed"})"
+                                              : "");
+    scenes::WholeRun run = bench().run(model_of(text, 1));
+    EXPECT_TRUE(run.completed()) << run.failure;
+    for (std::size_t g = 0; g < run.model->groups.size(); ++g)
+      if (run.model->groups[g].structure()) return run.stress[g].row(2).cwiseAbs().maxCoeff();
+    return 0.0;
+  };
+  const double whole = moment_of(false), half = moment_of(true);
+  EXPECT_GT(whole, 0.0);
+  EXPECT_NEAR(half, whole, 0.01 * whole);  // on other meshes
+}
+
 // Beyond an open end of a joint the ground is whole: two elements share the first edge but for the pair at the end, and what
 // divides it divides both.  Nodes on the edge were made twice, so that the ground stayed open over one edge of the first mesh.
 TEST(ArcSides, TheGroundIsWholeBeyondOpenEndsOfJoints) {
