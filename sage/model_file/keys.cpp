@@ -166,22 +166,7 @@ Key drawn(const std::string& key, Want want, const std::string& label, const std
 
 const std::vector<CodeName> kEnds{{0, "automatic"}, {1, "joined"}, {3, "open"}};
 
-// What the program draws and meshes by itself: sage/section.
-std::vector<Table> drawn_tables() {
-  Table mesh{"mesh", "", "How sagefe divides areas into elements.", false, {}};
-  mesh.keys = {
-      {"element", "element", Want::element, true, {}, "element type of all areas", {}, {}, {}},
-      {"formulation", "formulation", Want::formulation, false, {}, "formulation of the elements", {}, {}, {}},
-      drawn("size", Want::real, "edge length of elements where no point, line or area gives another", "length"),
-      drawn("growth", Want::real,
-            "growth of the edge length per unit of distance from a place with smaller elements"),
-      drawn("mesher", Want::code, "mesh generator", {}, {{0, "automatic"}, {1, "gmsh"}, {2, "blocks"}})};
-  Table points{"points",
-               "",
-               "Points with names: `A = [x, y]`, or `A = {at = [x, y], size = s}` with the edge length s of "
-               "elements at the point.",
-               false,
-               {}};
+Table table_of_lines() {
   Table line{
       "line", "", "A line of the drawing, such as a boundary, a wall, a lining or an interface.", true, {}};
   line.keys = {
@@ -202,6 +187,25 @@ std::vector<Table> drawn_tables() {
             "connection of both sides at the first end of an interface, if it is inside the ground", {}, kEnds),
       drawn("last_end", Want::code,
             "connection of both sides at the last end of an interface, if it is inside the ground", {}, kEnds)};
+  return line;
+}
+
+// What the program draws and meshes by itself: sage/section.
+std::vector<Table> drawn_tables() {
+  Table mesh{"mesh", "", "How sagefe divides areas into elements.", false, {}};
+  mesh.keys = {
+      {"element", "element", Want::element, true, {}, "element type of all areas", {}, {}, {}},
+      {"formulation", "formulation", Want::formulation, false, {}, "formulation of the elements", {}, {}, {}},
+      drawn("size", Want::real, "edge length of elements where no point, line or area gives another", "length"),
+      drawn("growth", Want::real,
+            "growth of the edge length per unit of distance from a place with smaller elements"),
+      drawn("mesher", Want::code, "mesh generator", {}, {{0, "automatic"}, {1, "gmsh"}, {2, "blocks"}})};
+  Table points{"points",
+               "",
+               "Points with names: `A = [x, y]`, or `A = {at = [x, y], size = s}` with the edge length s of "
+               "elements at the point.",
+               false,
+               {}};
   Table interface {
     "line.interface", "", "Interfaces between the structure of a line and the ground, or between two areas.",
         false, {}
@@ -236,7 +240,7 @@ std::vector<Table> drawn_tables() {
             "second point of the bar, a name of [points]; outside the ground it gets a node of its own"),
       drawn("material", Want::material, "material of the bar"),
       {"element", "element", Want::element, false, {}, "bar2 or spring2; blank = bar2", {}, {}, {}}};
-  return {mesh, points, line, interface, area, bar};
+  return {mesh, points, table_of_lines(), interface, area, bar};
 }
 
 // Places of the drawing in place of numbers of nodes and elements.
