@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "sage/record/values.hpp"
@@ -23,6 +24,15 @@ Json run_json(const PageRun& run, const PageOptions& options, std::vector<std::s
     omitted.push_back(run.file.stem().string() + ": " + words);
   }
   return json;
+}
+
+// STEM, or FOLDER/STEM where runs of one deck stand in several folders.
+std::string name_among(const std::vector<PageRun>& runs, const PageRun& run) {
+  const std::string stem = run.file.stem().string();
+  const bool alone =
+      std::ranges::count_if(runs, [&](const PageRun& other) { return other.file.stem() == stem; }) == 1;
+  const std::string folder = run.file.parent_path().filename().string();
+  return alone || folder.empty() ? stem : folder + "/" + stem;
 }
 
 std::string title_of(const std::vector<PageRun>& runs) {
@@ -63,7 +73,10 @@ PageRun page_run(const std::filesystem::path& file, const StoredResult& stored, 
 Page make_page(const std::vector<PageRun>& runs, const PageOptions& options) {
   Page page;
   Json json = {{"sagefe", SAGE_VERSION}, {"format", 1}, {"runs", Json::array()}};
-  for (const PageRun& run : runs) json["runs"].push_back(run_json(run, options, page.omitted));
+  for (const PageRun& run : runs) {
+    json["runs"].push_back(run_json(run, options, page.omitted));
+    json["runs"].back()["name"] = clean(name_among(runs, run));
+  }
   page.html = html_of(title_of(runs), json);
   return page;
 }

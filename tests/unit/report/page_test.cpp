@@ -253,6 +253,18 @@ TEST(ReportPage, HasTablesMessagesAndTheDeck) {
   EXPECT_NEAR(least, -42.406, 0.001);
 }
 
+// Two runs of one deck, each in its folder, can be told apart.
+TEST(ReportPage, RunsOfOneDeckAreNamedByTheirFolders) {
+  const Finished made = finished("named", shipped("chapter7/pinned_ld2_nu025/deck.dat"));
+  PageRun one = made.run(), other = made.run();
+  one.file = "axisymmetric/footing.h5";
+  other.file = "b_bar/footing.h5";
+  const Json alone = data_of(make_page({one}))["runs"], both = data_of(make_page({one, other}))["runs"];
+  EXPECT_EQ(alone[0]["name"], "footing");
+  EXPECT_EQ(both[0]["name"], "axisymmetric/footing");
+  EXPECT_EQ(both[1]["name"], "b_bar/footing");
+}
+
 // Whatever a deck writes into titles and names stays text.
 TEST(ReportPage, NamesOfDecksAreNoMarkup) {
   std::string deck = shipped("chapter7/pinned_ld2_nu025/deck.dat");
