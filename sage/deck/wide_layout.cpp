@@ -46,7 +46,8 @@ void lengthen_stage(Layout& layout) {
       {field("duration", "duration of the stage, for laws that depend on time and for consolidation; blank = 1",
              FieldKind::real),
        field("strength_factor",
-             "factor by which the strengths of the stage have been divided; blank = no factor",
+             "factor by which the strengths in this stage are already divided; sagefe does not divide again; "
+             "blank = no factor",
              FieldKind::real),
        field("pore_water",
              "pore water of elements for consolidation: 0 = excess pressures keep their values, 1 = undrained, "

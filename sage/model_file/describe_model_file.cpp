@@ -191,9 +191,14 @@ std::string model_file_tables() {
   using namespace model_file;
   Page page("Tables and keys of model files");
   page.prose(
-      "This page lists all tables and keys of [model files](model_file.md). Keys without \"required\" may be "
-      "left out. A blank field in a description is a key that is left out. Materials, groups, nodes and "
-      "elements without a `number` get the next number, in the order of the file. The page is written from the "
+      "This page lists the tables and keys of [model files](model_file.md). The parameters of a law are "
+      "further "
+      "keys of its `[[material]]`: `sagefe list materials` prints them. The other names are printed by "
+      "`sagefe list elements` and `sagefe list solvers`. Keys without \"required\" may be left out. So may "
+      "each "
+      "`number`: materials, groups, nodes and elements then get the next number, in the order of the file. A "
+      "`line` or a `point` replaces the required keys `first`, `element` and `edge`. A blank field in a "
+      "description is a key that is left out. The page is written from the "
       "fields of [decks of cards](deck_format.md), so some descriptions contain the code numbers of decks. The "
       "names of a key `kind` are in the order of these numbers: from 0, in reports from 1. A unit is in square "
       "brackets.");
@@ -202,7 +207,10 @@ std::string model_file_tables() {
     if (one.card.empty())
       page.prose(one.about);
     else if (!one.key.empty())
-      page.paragraph("The keys are fields of the card `" + one.card + "` of [decks](deck_format.md).");
+      page.prose("The keys are fields of the " +
+                 (one.card == "stage_title" ? "cards `stage_title`, `stage`, `birth` and `death`"
+                                            : "card `" + one.card + "`") +
+                 " of [decks](deck_format.md).");
     page.table({"key", "value", "meaning"});
     for (const Key& key : one.keys)
       page.row({"`" + key.key + "`", std::string(kind_word(key)) + (key.required ? ", required" : ""),
