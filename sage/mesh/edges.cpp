@@ -420,8 +420,9 @@ EdgeTable::EdgeTable(const Model& model, bool structures)
 }
 
 void EdgeTable::join_beyond_interfaces(const Model& model) {
+  if (std::ranges::none_of(model.groups, &Group::interface)) return;
   Joined pairs(static_cast<std::size_t>(model.mesh.nodes()));
-  std::set<int> paired;
+  std::vector<char> paired(static_cast<std::size_t>(model.mesh.nodes()), 0);
   std::set<EdgeKey> lined;  // an interface lies on them
   for (const Group& group : model.groups) {
     if (!group.interface() || group.entry->corners != 4) continue;
@@ -432,17 +433,16 @@ void EdgeTable::join_beyond_interfaces(const Model& model) {
       for (const auto& [one, other] : {std::pair{n[0], n[3]}, {n[1], n[2]}}) {
         if (one == other || model.mesh.x.col(one) != model.mesh.x.col(other)) continue;
         pairs.join(one, other);
-        paired.insert({one, other});
+        paired[one] = paired[other] = 1;
       }
     }
   }
-  if (paired.empty()) return;
   std::map<std::pair<int, int>, int> first;  // of the nodes of a pair, by the pair and the other end
   for (const Edge& edge : edges_) {
-    if (lined.contains(edge.ends)) continue;
     const auto [low, high] = edge.ends;
+    if ((paired[low] == 0 && paired[high] == 0) || lined.contains(edge.ends)) continue;
     const auto stands = [&](int tip, int far) {
-      return paired.contains(tip) ? first.try_emplace({pairs.set_of(tip), far}, tip).first->second : tip;
+      return paired[tip] != 0 ? first.try_emplace({pairs.set_of(tip), far}, tip).first->second : tip;
     };
     if (const int tip = stands(low, high); tip != low) standing_for_[edge.ends] = {tip, high};
     if (const int tip = stands(high, low); tip != high) standing_for_[edge.ends] = {low, tip};

@@ -29,6 +29,9 @@ double degrees(double radians) {
 // holds both of its ends, and the middle node that a card gives: the ends of a long edge may belong to two
 // other sides.
 struct Outline {
+  explicit Outline(const Mesh& mesh) : arcs(mesh) {}
+
+  ArcSides arcs;
   std::vector<BoundaryEdge> edges;
   std::map<int, std::map<int, double>> sectors;  // degrees that each kind of material has at a node
   std::map<int, int> borders;                    // sides of elements at a node between two kinds of material
@@ -95,8 +98,7 @@ Vector2 direction(const Mesh& mesh, const ArcSides& arcs, const std::array<int, 
 }
 
 Outline outline_of(const Model& model) {
-  Outline outline;
-  const ArcSides arcs(model.mesh);
+  Outline outline(model.mesh);
   const std::vector<int> kinds = kinds_of_material(model);
   std::map<EdgeKey, int> uses, kind_on;
   std::vector<BoundaryEdge> all;
@@ -124,8 +126,8 @@ Outline outline_of(const Model& model) {
           ++outline.borders[a];
           ++outline.borders[z];
         }
-        const Vector2 out = direction(model.mesh, arcs, {a, z}, middle, 0),
-                      in = direction(model.mesh, arcs, {before, a}, middle_node(edge_before), 1);
+        const Vector2 out = direction(model.mesh, outline.arcs, {a, z}, middle, 0),
+                      in = direction(model.mesh, outline.arcs, {before, a}, middle_node(edge_before), 1);
         double angle = degrees(std::atan2(out.x() * in.y() - out.y() * in.x(), out.dot(in)));
         if (angle < -90.0) angle += 360.0;  // two sides that go straight on
         outline.angle[a] += angle;
@@ -217,7 +219,7 @@ void find_by_materials(const Model& model, const Outline& outline, std::set<int>
 // bounded, its slope is not.
 class EdgeLoads {
  public:
-  EdgeLoads(const Model& model, const Stage& stage) : model_(&model), arcs_(model.mesh) {
+  EdgeLoads(const Model& model, const ArcSides& arcs, const Stage& stage) : model_(&model), arcs_(&arcs) {
     for (const EdgeLoad& p : stage.pressures) {
       auto [it, is_new] = load_.try_emplace({p.group, p.element, p.edge},
                                             std::array<Vector2, 2>{Vector2::Zero(), Vector2::Zero()});
@@ -244,7 +246,7 @@ class EdgeLoads {
   }
   Vector2 normal(const BoundaryEdge& e, std::size_t end) const {  // outward
     const Vector2 along =
-        (end == 0 ? 1.0 : -1.0) * direction(model_->mesh, arcs_, {e.a, e.z}, e.middle, end).normalized();
+        (end == 0 ? 1.0 : -1.0) * direction(model_->mesh, *arcs_, {e.a, e.z}, e.middle, end).normalized();
     return {along.y(), -along.x()};
   }
   Vector2 traction(const BoundaryEdge& e, std::size_t end) const {
@@ -253,13 +255,13 @@ class EdgeLoads {
   }
 
   const Model* model_;
-  ArcSides arcs_;
+  const ArcSides* arcs_;
   std::map<std::tuple<int, int, int>, std::array<Vector2, 2>> load_;  // pressure, shear at both ends of an edge
   double largest_ = 0.0;
 };
 
 void find_by_loads(const Model& model, const Outline& outline, const Stage& stage, std::set<int>& found) {
-  const EdgeLoads loads(model, stage);
+  const EdgeLoads loads(model, outline.arcs, stage);
   for (const auto& [node, leaving] : outline.leaving) {
     if (leaving.size() != 1) continue;
     const std::size_t edge_in = outline.arriving.at(node).front(), edge_out = leaving.front();

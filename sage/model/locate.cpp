@@ -26,7 +26,7 @@ bool share_a_node(const Model& model, const Location& a, const Location& b) {
   return std::find_first_of(na, na + ga.node_count(), nb, nb + gb.node_count()) != na + ga.node_count();
 }
 
-// The most by which a circle lies outside the sides of an element that follow it.
+// The most by which circles lie outside the chords of an element's sides.
 double bulge_of(const Mesh& mesh, const ArcSides& arcs, const Group& group, int e) {
   const int* const nodes = group.nodes_of(e);
   double most = 0.0;
@@ -34,14 +34,9 @@ double bulge_of(const Mesh& mesh, const ArcSides& arcs, const Group& group, int 
     const std::optional<Vector2> centre = arcs.centre(nodes[edge[0]], nodes[edge[1]]);
     if (!centre) continue;
     const Vector2 a = mesh.x.col(nodes[edge[0]]), z = mesh.x.col(nodes[edge[1]]);
-    std::optional<Vector2> middle;
-    if (edge.size() == 3) middle = mesh.x.col(nodes[edge[2]]);
-    for (const double t : {0.2, 0.5, 0.8}) {
-      const Vector2 side = along_side(a, z, middle, {}, t);
-      most = std::max(most, (along_side(a, z, {}, centre, t) - *centre).norm() - (side - *centre).norm());
-    }
+    most = std::max(most, (along_side(a, z, {}, centre, 0.5) - 0.5 * (a + z)).norm());
   }
-  return 1.05 * most;
+  return most;
 }
 
 }  // namespace
@@ -90,9 +85,9 @@ Locator::Locator(const Model& model, ElementKind kind) : model_(&model), arcs_(m
       element_coordinates(model.mesh, group, e, x);
       const Vector2 low = x.rowwise().minCoeff(), high = x.rowwise().maxCoeff();
       // Curved edges bulge.
-      const double bulge = bulge_of(model.mesh, arcs_, group, e);
-      const Vector2 margin = Vector2::Constant(0.05 * (high - low).maxCoeff() + model.mesh.reach + bulge);
-      boxes_.push_back({g, e, low - margin, high + margin, bulge});
+      const Vector2 margin = Vector2::Constant(0.05 * (high - low).maxCoeff() + model.mesh.reach +
+                                               bulge_of(model.mesh, arcs_, group, e));
+      boxes_.push_back({g, e, low - margin, high + margin});
     }
   }
   if (boxes_.empty()) return;
@@ -121,20 +116,21 @@ bool Locator::inside(const Box& box, const Vector2& place, Location& found) cons
          in_parent(found.parent, group.entry->triangle());
 }
 
-// Of a side of the element that follows one.
-bool Locator::within_circle(const Box& box, const Vector2& place) const {
+// Whether a place beyond a side lies before the circle that the side follows, where the element is within that.
+bool Locator::before_circle(const Box& box, std::size_t side, const Vector2& place) const {
   const Group& group = model_->groups[box.group];
   const int* const nodes = group.nodes_of(box.element);
-  return std::ranges::any_of(group.element->edges(), [&](const std::vector<int>& edge) {
-    const std::optional<Vector2> centre = arcs_.centre(nodes[edge[0]], nodes[edge[1]]);
-    if (!centre) return false;
-    const double radius = (model_->mesh.x.col(nodes[edge[0]]) - *centre).norm();
-    return (place - *centre).norm() <= radius * (1.0 + kEdge) + model_->mesh.reach;
-  });
+  const std::vector<int>& edge = group.element->edges()[side];
+  const std::optional<Vector2> centre = arcs_.centre(nodes[edge[0]], nodes[edge[1]]);
+  if (!centre) return false;
+  const Vector2 a = model_->mesh.x.col(nodes[edge[0]]), z = model_->mesh.x.col(nodes[edge[1]]), along = z - a,
+                inward(-along.y(), along.x());  // edges run counter-clockwise
+  return inward.dot(*centre - a) > 0.0 &&
+         (place - *centre).norm() <= (a - *centre).norm() * (1.0 + kEdge) + model_->mesh.reach;
 }
 
 // Distance of the nearest place on the element's edges (infinite where there is none): Newton along each side,
-// kept between its ends.
+// kept between its ends.  None where a circle that the nearest side follows holds the place.
 double Locator::nearest(const Box& box, const Vector2& place, Location& found) const {
   constexpr int kSteps = 20;
   const Group& group = model_->groups[box.group];
@@ -142,7 +138,8 @@ double Locator::nearest(const Box& box, const Vector2& place, Location& found) c
   element_coordinates(model_->mesh, group, box.element, x);
   const auto nodes = static_cast<std::size_t>(x.cols());
   std::vector<double> N(nodes), dN(2 * nodes);
-  double least = std::numeric_limits<double>::infinity();
+  double least = std::numeric_limits<double>::infinity(), at_least = 0.0;
+  std::size_t nearest_side = 0;
   const auto corners = static_cast<std::size_t>(group.entry->triangle() ? 3 : 4);
   const std::array<Place, 4>& corner = parent_corners(group.entry->triangle() ? 3 : 4);
   for (std::size_t side = 0; side < corners; ++side) {
@@ -157,13 +154,16 @@ double Locator::nearest(const Box& box, const Vector2& place, Location& found) c
       const double next = std::clamp(t + missing.dot(tangent) / tangent.squaredNorm(), 0.0, 1.0);
       if (missing.norm() < least) {
         least = missing.norm();
+        nearest_side = side;
+        at_least = t;
         found = {box.group, box.element, from + t * along, N};
       }
       if (!(std::abs(next - t) > 1e-12)) break;
       t = next;
     }
   }
-  return least;
+  const bool between_ends = at_least > 0.0 && at_least < 1.0;
+  return between_ends && before_circle(box, nearest_side, place) ? 0.0 : least;
 }
 
 std::vector<Location> Locator::at(const Vector2& place) const {
@@ -187,8 +187,7 @@ std::vector<Location> Locator::at(const Vector2& place) const {
       continue;
     }
     const double distance = nearest(box, place, location);
-    const double reach = model_->mesh.reach;
-    if (!(distance <= reach || (distance <= reach + box.bulge && within_circle(box, place)))) continue;
+    if (!(distance <= model_->mesh.reach)) continue;
     near.push_back({std::move(location), distance});
     const auto known = least.try_emplace(box.group, distance).first;
     known->second = std::min(known->second, distance);

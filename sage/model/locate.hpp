@@ -36,10 +36,9 @@ class Locator {
     std::size_t group = 0;
     int element = 0;
     Vector2 low, high;
-    double bulge = 0.0;  // of circles beyond its sides
   };
   bool inside(const Box& box, const Vector2& place, Location& found) const;
-  bool within_circle(const Box& box, const Vector2& place) const;
+  bool before_circle(const Box& box, std::size_t side, const Vector2& place) const;
   std::size_t strip_at(double x) const;
   double nearest(const Box& box, const Vector2& place, Location& found) const;
 

@@ -205,6 +205,13 @@ class EdgesOfCircles {
         circle_[edge_of(nodes[k], nodes[k + 1])] = &curve;
     }
   }
+  bool any_flat(const std::array<int, 4>& nodes) const {
+    for (std::size_t i = 0; i < 4; ++i)
+      if (flat(nodes[i], nodes[(i + 1) % 4], nodes[(i + 2) % 4])) return true;
+    return false;
+  }
+
+ private:
   bool flat(int a, int b, int c) const {
     constexpr double kSame = 1e-6;  // of the radius
     const auto one = circle_.find(edge_of(a, b)), other = circle_.find(edge_of(b, c));
@@ -213,66 +220,23 @@ class EdgesOfCircles {
     return (x.centre - y.centre).norm() <= kSame * x.radius &&
            std::abs(x.radius - y.radius) <= kSame * x.radius;
   }
-  template <std::size_t n>
-  bool any_flat(const std::array<int, n>& nodes) const {
-    for (std::size_t i = 0; i < n; ++i)
-      if (flat(nodes[i], nodes[(i + 1) % n], nodes[(i + 2) % n])) return true;
-    return false;
-  }
 
- private:
   std::map<Edge, const Curve*> circle_;
 };
 
-// By the edges: triangles, and their corner across.  Without edges of pieces.
-std::map<Edge, std::vector<std::pair<int, int>>> triangles_by_edge(const FlatMesh& mesh) {
-  std::map<Edge, std::vector<std::pair<int, int>>> of_edge;
+}  // namespace
+
+void join_triangles(const Arrangement& arrangement, FlatMesh& mesh) {
+  const EdgesOfCircles circles(arrangement, mesh);
+  std::map<Edge, std::vector<std::pair<int, int>>> of_edge;  // triangle and its corner across
   for (std::size_t c = 0; c < mesh.cells.size(); ++c)
     for (std::size_t i = 0; i < 3; ++i)
       of_edge[edge_of(mesh.cells[c].nodes[(i + 1) % 3], mesh.cells[c].nodes[(i + 2) % 3])].emplace_back(
           static_cast<int>(c), static_cast<int>(i));
   for (const std::vector<int>& nodes : mesh.on_piece)
     for (std::size_t k = 0; k + 1 < nodes.size(); ++k) of_edge.erase(edge_of(nodes[k], nodes[k + 1]));
-  return of_edge;
-}
-
-// Of the triangle with corner `ear`, and its neighbour with corner `across`: the other diagonal where that leaves no ear.
-bool turn(const EdgesOfCircles& circles, FlatMesh& mesh, Cell& ear, std::size_t i, Cell& other, int across) {
-  constexpr double kThin = 0.05;
-  const int a = ear.nodes[(i + 2) % 3], b = ear.nodes[i], c = ear.nodes[(i + 1) % 3];
-  const Cell one{{a, b, across, -1}, ear.area}, two{{b, c, across, -1}, ear.area};
-  for (const Cell& made : {one, two})
-    if (worst_corner(mesh, made) < kThin || circles.any_flat<3>({made.nodes[0], made.nodes[1], made.nodes[2]}))
-      return false;
-  ear = one;
-  other = two;
-  return true;
-}
-
-}  // namespace
-
-void turn_ears(const Arrangement& arrangement, FlatMesh& mesh) {
-  const EdgesOfCircles circles(arrangement, mesh);
-  const auto of_edge = triangles_by_edge(mesh);
-  std::vector<char> turned(mesh.cells.size(), 0);
-  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
-    for (std::size_t i = 0; i < 3 && turned[e] == 0; ++i) {
-      Cell& ear = mesh.cells[e];
-      const int next = ear.nodes[(i + 1) % 3], last = ear.nodes[(i + 2) % 3];
-      const auto both = of_edge.find(edge_of(next, last));
-      if (!circles.flat(last, ear.nodes[i], next) || both == of_edge.end() || both->second.size() != 2)
-        continue;
-      const auto& [o, across] = both->second[both->second[0].first == static_cast<int>(e) ? 1 : 0];
-      Cell& other = mesh.cells[o];
-      if (turned[o] == 0 && other.area == ear.area && turn(circles, mesh, ear, i, other, other.nodes[across]))
-        turned[e] = turned[o] = 1;
-    }
-}
-
-void join_triangles(const Arrangement& arrangement, FlatMesh& mesh) {
-  const EdgesOfCircles circles(arrangement, mesh);
   std::vector<Join> joins;
-  for (const auto& [edge, two] : triangles_by_edge(mesh)) {
+  for (const auto& [edge, two] : of_edge) {
     if (two.size() != 2) continue;
     const Cell& cell = mesh.cells[two[0].first];
     const Cell& other = mesh.cells[two[1].first];

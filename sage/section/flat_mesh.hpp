@@ -35,12 +35,9 @@ std::vector<int> crossed_arcs(const Arrangement& arrangement, const FlatMesh& me
 // Every edge in two, every quadrilateral in four, every triangle in three quadrilaterals.  Nodes on arcs stay there.
 FlatMesh into_quadrilaterals(const Arrangement& arrangement, const FlatMesh& coarse);
 
-// Where a triangle has two sides on one circle, the diagonal between it and its neighbour is exchanged: the corner between
-// these sides would become flat in finer meshes, which follow the circle.
-void turn_ears(const Arrangement& arrangement, FlatMesh& mesh);
-
 // Joins pairs of triangles to quadrilaterals, the best first, not across pieces, nor so that two sides of one lie on a
-// circle.
+// circle: the corner between them would become flat in finer meshes, which follow it.  No triangle has two such sides, since
+// those of Gmsh are Delaunay's, and the circle would hold the other corners.
 void join_triangles(const Arrangement& arrangement, FlatMesh& mesh);
 
 // Moves nodes inside of faces towards the middle of their neighbours where that makes no cell worse than half as good as

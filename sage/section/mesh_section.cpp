@@ -103,7 +103,6 @@ class Making {
       mesh_ = divide(arrangement_, sizes, edges_by_size(arrangement_, sizes, factor), false);
     } while (refine(crossed_arcs(arrangement_, mesh_)));
     fill_by_gmsh(section_, arrangement_, sizes, factor, mesh_);
-    turn_ears(arrangement_, mesh_);
     if (!quadrilaterals()) return;
     join_triangles(arrangement_, mesh_);
     mesh_ = into_quadrilaterals(arrangement_, mesh_);

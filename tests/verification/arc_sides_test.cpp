@@ -24,18 +24,28 @@ const scenes::Workbench& bench() {
   return all;
 }
 
-// A quarter of Lame's ring, radii 1 and 2, E = 1, nu = .3, pressure 1 within; two elements along the inner arc.
-std::string ring(const std::string& element, const std::string& mesher, const std::string& more = "") {
-  return R"(
-geometry = "plane strain"
-units = {length = "m", force = "kN", stress = "kPa"}
-mesh = {element = ")" +
-         element + R"(", size = 0.8, mesher = ")" + mesher + R"("}
+const std::string kMaterials = R"(
 material = [
   {name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3},
   {name = "lining", law = "section_elastic", axial_stiffness = 1, bending_stiffness = 1},
   {name = "joint", law = "goodman", normal_stiffness = 100, shear_stiffness = 100},
 ]
+)";
+
+// The beginning of a model file; its points and what is drawn follow.
+std::string drawing(const std::string& element, double size, const std::string& mesher,
+                    const std::string& materials = kMaterials) {
+  return fmt::format(R"(
+geometry = "plane strain"
+units = {{length = "m", force = "kN", stress = "kPa"}}
+mesh = {{element = "{}", size = {}, mesher = "{}"}})",
+                     element, size, mesher) +
+         materials;
+}
+
+// A quarter of Lame's ring, radii 1 and 2, E = 1, nu = .3, pressure 1 within; two elements along the inner arc.
+std::string ring(const std::string& element, const std::string& mesher, const std::string& more = "") {
+  return drawing(element, 0.8, mesher) + R"(
 points = {centre = [0, 0], a = [1, 0], b = [2, 0], c = [0, 2], d = [0, 1]}
 line = [
   {name = "inner", shape = "arc", points = ["a", "d"], centre = "centre"},
@@ -153,16 +163,7 @@ TEST(ArcSides, LiningsAndJointsFollowTheCircle) {
 TEST(ArcSides, JointsThatCrossACircleFollowIt) {
   if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
   for (const char* const element : {"quad4", "quad8", "tri6"}) {
-    const std::string text = R"(
-geometry = "plane strain"
-units = {length = "m", force = "kN", stress = "kPa"}
-mesh = {element = ")" + std::string(element) +
-                             R"(", size = 3, mesher = "gmsh"}
-material = [
-  {name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3},
-  {name = "lining", law = "section_elastic", axial_stiffness = 1, bending_stiffness = 1},
-  {name = "joint", law = "goodman", normal_stiffness = 100, shear_stiffness = 100},
-]
+    const std::string text = drawing(element, 3.0, "gmsh") + R"(
 points = {centre = [0, 0], sw = [-10, -10], se = [10, -10]}
 line = [
   {name = "lining", shape = "circle", centre = "centre", radius = 2, size = 1.3, beam = "lining", interface = {side = "both", material = "joint"}},
@@ -182,15 +183,7 @@ fixity = [{point = "sw", x = "fixed", y = "fixed"}, {point = "se", y = "fixed"}]
 TEST(ArcSides, JointsThatEndAtACircleFollowIt) {
   if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
   for (const char* const element : {"quad4", "quad8"}) {
-    const std::string text = R"(
-geometry = "plane strain"
-units = {length = "m", force = "kN", stress = "kPa"}
-mesh = {element = ")" + std::string(element) +
-                             R"(", size = 0.8, mesher = "gmsh"}
-material = [
-  {name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3},
-  {name = "joint", law = "goodman", normal_stiffness = 100, shear_stiffness = 100},
-]
+    const std::string text = drawing(element, 0.8, "gmsh") + R"(
 points = {centre = [0, 0]}
 line = [
   {name = "hole", shape = "circle", centre = "centre", radius = 1},
@@ -219,15 +212,15 @@ TEST(ArcSides, RotationsOfHalfALiningAreHeldAtItsEnds) {
     const std::string lining = half ? R"(shape = "arc", points = ["invert", "crown"], centre = "centre")"
                                     : R"(shape = "circle", centre = "centre", radius = 2)";
     const std::string left = half ? "0" : "-8";
-    const std::string text = fmt::format(R"(
-geometry = "plane strain"
-units = {{length = "m", force = "kN", stress = "kPa"}}
-mesh = {{element = "quad8", size = 1.2, mesher = "gmsh"}}
+    const std::string materials = R"(
 material = [
-  {{name = "soil", law = "linear_elastic", youngs_modulus = 1e4, poissons_ratio = 0.3}},
-  {{name = "lining", law = "section_elastic", axial_stiffness = 1e6, bending_stiffness = 1e4}},
-  {{name = "joint", law = "goodman", normal_stiffness = 1e6, shear_stiffness = 1e3}},
+  {name = "soil", law = "linear_elastic", youngs_modulus = 1e4, poissons_ratio = 0.3},
+  {name = "lining", law = "section_elastic", axial_stiffness = 1e6, bending_stiffness = 1e4},
+  {name = "joint", law = "goodman", normal_stiffness = 1e6, shear_stiffness = 1e3},
 ]
+)";
+    const std::string text = drawing("quad8", 1.2, "gmsh", materials) +
+                             fmt::format(R"(
 points = {{centre = [0, 0], crown = [0, 2], invert = [0, -2]}}
 line = [
   {{name = "lining", {0}, size = 0.5, beam = "lining", interface = {{side = "both", material = "joint"}}}},
@@ -263,15 +256,7 @@ TEST(ArcSides, TheGroundIsWholeBeyondOpenEndsOfJoints) {
   for (const char* const element : {"quad4", "quad8", "tri6"})
     for (const char* const shape :
          {"points = [[-2, 0], [2, 0]]", "shape = \"arc\", points = [[2, 0], [0, 2]], centre = \"centre\""}) {
-      const std::string text = fmt::format(R"(
-geometry = "plane strain"
-units = {{length = "m", force = "kN", stress = "kPa"}}
-mesh = {{element = "{}", size = 1.5, mesher = "gmsh"}}
-material = [
-  {{name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3}},
-  {{name = "lining", law = "section_elastic", axial_stiffness = 1, bending_stiffness = 1}},
-  {{name = "joint", law = "goodman", normal_stiffness = 100, shear_stiffness = 100}},
-]
+      const std::string text = drawing(element, 1.5, "gmsh") + fmt::format(R"(
 points = {{centre = [0, 0]}}
 line = [
   {{name = "joint", {}, beam = "lining", first_end = "open", last_end = "open", interface = {{side = "both", material = "joint"}}}},
@@ -281,7 +266,7 @@ area = [{{name = "ground", outline = [[-5, -5], [5, -5], [5, 5], [-5, 5]], mater
 fixity = [{{line = "bottom", x = "fixed", y = "fixed"}}]
 [[stage]]
 )",
-                                           element, shape);
+                                                                           shape);
       for (const int refine : {0, 1, 2}) {
         const Model model = model_of(text, refine);
         std::set<int> of_joints;
@@ -316,14 +301,13 @@ TEST(ArcSides, NoElementHasTwoSidesOnACircle) {
   if (!gmsh_available()) GTEST_SKIP() << "no Gmsh";
   for (const char* const element : {"quad4", "quad8", "tri6"})
     for (const double angle : {0.0, 10.0, 33.0, 77.0}) {
-      const std::string text = fmt::format(R"(
-geometry = "plane strain"
-units = {{length = "m", force = "kN", stress = "kPa"}}
-mesh = {{element = "{}", size = 1.5, mesher = "gmsh"}}
+      const std::string materials = R"(
 material = [
-  {{name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3}},
-  {{name = "core", law = "linear_elastic", youngs_modulus = 3, poissons_ratio = 0.3}},
+  {name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3},
+  {name = "core", law = "linear_elastic", youngs_modulus = 3, poissons_ratio = 0.3},
 ]
+)";
+      const std::string text = drawing(element, 1.5, "gmsh", materials) + fmt::format(R"(
 points = {{centre = [0, 0]}}
 line = [
   {{name = "rim", shape = "circle", centre = "centre", radius = 1, start_angle = {}}},
@@ -337,7 +321,7 @@ area = [
 fixity = [{{line = "bottom", y = "fixed"}}, {{line = "left", x = "fixed"}}]
 [[stage]]
 )",
-                                           element, angle);
+                                                                                      angle);
       const Model model = model_of(text, 0);
       const ArcSides sides(model.mesh);
       for (const Group& group : model.groups)
@@ -363,16 +347,15 @@ TEST(ArcSides, PointsOnADrawnCircleAreInTheMesh) {
         EXPECT_EQ(at(radius).size(), 1u) << element << ' ' << angle << ' ' << radius;
         EXPECT_TRUE(at(2.001).empty());
       }
+    const double middle = 0.05 * std::numbers::pi;  // of the first of five sides
+    EXPECT_TRUE(locator.at(0.985 * Vector2(std::cos(middle), std::sin(middle))).empty()) << "in the hole";
+    EXPECT_TRUE(locator.at({1.99, -0.005}).empty()) << "beside the end of the arc";
   }
 }
 
 // A straight side between two nodes of a circle is not part of it: the flat invert of a tunnel.
 TEST(ArcSides, ChordsStayStraight) {
-  const std::string text = R"(
-geometry = "plane strain"
-units = {length = "m", force = "kN", stress = "kPa"}
-mesh = {element = "tri3", size = 3, mesher = "gmsh"}
-material = [{name = "soil", law = "linear_elastic", youngs_modulus = 1, poissons_ratio = 0.3}]
+  const std::string text = drawing("tri3", 3.0, "gmsh") + R"(
 points = {centre = [0, 0], a = [1, 0], d = [-1, 0]}
 line = [{name = "crown", shape = "arc", points = ["a", "d"], centre = "centre", size = 3}]
 area = [{name = "ground", outline = [[-3, -3], [3, -3], [3, 3], [-3, 3]], holes = [["crown"]], material = "soil"}]
