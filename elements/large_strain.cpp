@@ -2,15 +2,19 @@
 
 namespace sage {
 
-Outcome update_log_strain(const SolidLaw& law, const ElasticShear& shear, const PlaneGradient& step,
-                          PointIn<4>& point, std::span<double> h1, LogPoint& answer) {
+bool find_trial_strain(const ElasticShear& law, const PlaneGradient& step, PointIn<4>& point, Vector4& trial) {
   const Vector4& tau = point.sigma0;
-  const double mean = (tau[0] + tau[1] + tau[2]) / 3.0, twice_G = 2.0 * shear.shear_modulus(tau, point.h0);
+  const double mean = (tau[0] + tau[1] + tau[2]) / 3.0, twice_G = 2.0 * law.shear_modulus(tau, point.h0);
   // An elastic strain without change of volume: that part is the same in the trial strain, whatever it is.
   const Vector4 elastic = (tau - mean * Vector4(1.0, 1.0, 1.0, 0.0)) / twice_G;
-  if (!half_log(pushed_forward(stretch_of(elastic), step), answer.trial)) return Outcome::cut_step;
-  point.deps = answer.trial - elastic;
+  if (!half_log(pushed_forward(stretch_of(elastic), step), trial)) return false;
+  point.deps = trial - elastic;
   point.deps[3] *= 2.0;
+  return true;
+}
+
+Outcome update_stress(const ElasticShear& law, const PointIn<4>& point, std::span<double> h1,
+                      LogPoint& answer) {
   PointOut<4> result;
   result.h1 = h1;
   if (law.update(point, result) != Outcome::ok) return Outcome::cut_step;

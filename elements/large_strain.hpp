@@ -36,9 +36,10 @@ struct LogPoint {
 };
 
 // point: committed Kirchhoff stress, strain, history and context; its deps is overwritten.  step: gradient of the
-// displacements since the committed state, by the places of that state; h1: the law's trial history.
-Outcome update_log_strain(const SolidLaw& law, const ElasticShear& shear, const PlaneGradient& step,
-                          PointIn<4>& point, std::span<double> h1, LogPoint& answer);
+// displacements since the committed state, by the places of that state.  False where the step turns the point inside out.
+bool find_trial_strain(const ElasticShear& law, const PlaneGradient& step, PointIn<4>& point, Vector4& trial);
+// h1: the law's trial history.
+Outcome update_stress(const ElasticShear& law, const PointIn<4>& point, std::span<double> h1, LogPoint& answer);
 
 // Stiffness by displacement gradients [xx yy zz xy yx], of stress components in the same order, in the moved place:
 // D d(trial strain)/d(gradient).
@@ -95,34 +96,39 @@ class LargeStrain final : public Element {
 
   // Stress arrives and leaves as Cauchy stress, strain as logarithmic strain of the left stretch.
   Outcome evaluate(const ElementIn& in, ElementOut& out) const override {
-    const SolidLaw& law = *std::get<const SolidLaw*>(in.law);
-    const auto* const shear = dynamic_cast<const ElasticShear*>(&law);
-    assert(shear && "the model builder rejects other laws");
+    // The model builder rejects other laws.
+    const auto& law = static_cast<const ElasticShear&>(*std::get<const SolidLaw*>(in.law));
     const std::size_t of_law = law.traits().history.size();
+    const std::size_t stride = of_law + kOwn;
+    // A loop for each part of a point's work: the processor then works at several points at once.
     std::array<Moved, kPoints> moved;
     Dilatation whole;
     const Motion motion(in);
     for (std::size_t p = 0; p < kPoints; ++p)
-      if (!move(motion, p, in.h0 + p * (of_law + kOwn) + of_law, moved[p], whole)) return Outcome::cut_step;
-    Sums sums;
-    if (out.K != nullptr) sums.clear();
+      if (!move(motion, p, in.h0 + p * stride + of_law, moved[p], whole)) return Outcome::cut_step;
+    std::array<PointIn<4>, kPoints> points;
+    std::array<LogPoint, kPoints> answers;
     for (std::size_t p = 0; p < kPoints; ++p) {
       Moved& m = moved[p];
       if constexpr (kMean) whole.take_mean(m);
-      const std::size_t h = p * (of_law + kOwn);
-      store_gradient(m.total, out.h1 + h + of_law);
-      PointIn<4> point;
-      point.sigma0 = (1.0 + m.change0) * Vector4::Map(in.sigma0 + 4 * p);
-      point.eps0 = Vector4::Map(in.eps0 + 4 * p);
-      point.h0 = {in.h0 + h, of_law};
-      point.context = in.contexts != nullptr ? in.contexts + p : nullptr;
-      LogPoint answer;
-      if (update_log_strain(law, *shear, m.step, point, {out.h1 + h, of_law}, answer) != Outcome::ok)
+      store_gradient(m.total, out.h1 + p * stride + of_law);
+      points[p].sigma0 = (1.0 + m.change0) * Vector4::Map(in.sigma0 + 4 * p);
+      points[p].eps0 = Vector4::Map(in.eps0 + 4 * p);
+      points[p].h0 = {in.h0 + p * stride, of_law};
+      points[p].context = in.contexts != nullptr ? in.contexts + p : nullptr;
+      if (!find_trial_strain(law, m.step, points[p], answers[p].trial) ||
+          !total_strain(m.strained, out.eps1 + 4 * p))
         return Outcome::cut_step;
-      Vector4::Map(out.sigma1 + 4 * p) = answer.tau / (1.0 + m.change);
-      if (!total_strain(m.strained, out.eps1 + 4 * p)) return Outcome::cut_step;
-      out.status[p] = answer.status;
-      add_point(m, whole, answer, out.K != nullptr, sums);
+    }
+    for (std::size_t p = 0; p < kPoints; ++p)
+      if (update_stress(law, points[p], {out.h1 + p * stride, of_law}, answers[p]) != Outcome::ok)
+        return Outcome::cut_step;
+    Sums sums;
+    if (out.K != nullptr) sums.clear();
+    for (std::size_t p = 0; p < kPoints; ++p) {
+      Vector4::Map(out.sigma1 + 4 * p) = answers[p].tau / (1.0 + moved[p].change);
+      out.status[p] = answers[p].status;
+      add_point(moved[p], whole, answers[p], out.K != nullptr, sums);
     }
     if (kMean && out.K != nullptr) add_volume_curvature(moved, whole, sums);
     write(sums, out);
@@ -133,14 +139,9 @@ class LargeStrain final : public Element {
  private:
   // Places of the nodes in the committed state, and how they move from there.
   struct Motion {
-    Nodes x, y, dx, dy;
-    explicit Motion(const ElementIn& in) {
-      const Coordinates before = Coordinates::Map(in.x) + Coordinates::Map(in.u0), du = Coordinates::Map(in.du);
-      x = before.row(0).transpose();
-      y = before.row(1).transpose();
-      dx = du.row(0).transpose();
-      dy = du.row(1).transpose();
-    }
+    Coordinates before, du;
+    explicit Motion(const ElementIn& in)
+        : before(Coordinates::Map(in.x) + Coordinates::Map(in.u0)), du(Coordinates::Map(in.du)) {}
   };
   // Gradients of the shape functions where the element is.
   struct Moved {
@@ -175,23 +176,23 @@ class LargeStrain final : public Element {
   struct Sums {
     Nodes fx = Nodes::Zero(), fy = Nodes::Zero();
     Matrix<kNodes> xx, xy, yx, yy;
-    void clear() { xx = xy = yx = yy = Matrix<kNodes>::Zero(); }
+    void clear() { xx.setZero(), xy.setZero(), yx.setZero(), yy.setZero(); }
   };
 
   // False where the element is turned inside out.
   bool move(const Motion& to, std::size_t p, const double* history, Moved& m, Dilatation& whole) const {
     const ShapeAt<Shape>& at = points_[p];
     const auto dN_xi = at.dN.col(0), dN_eta = at.dN.col(1);
-    const double x_xi = to.x.dot(dN_xi), x_eta = to.x.dot(dN_eta), y_xi = to.y.dot(dN_xi),
-                 y_eta = to.y.dot(dN_eta);
-    const double dx_xi = to.dx.dot(dN_xi), dx_eta = to.dx.dot(dN_eta), dy_xi = to.dy.dot(dN_xi),
-                 dy_eta = to.dy.dot(dN_eta);
+    const Matrix2 J0 = to.before.lazyProduct(at.dN), dJ = to.du.lazyProduct(at.dN);
+    const double x_xi = J0(0, 0), x_eta = J0(0, 1), y_xi = J0(1, 0), y_eta = J0(1, 1);
+    const double dx_xi = dJ(0, 0), dx_eta = dJ(0, 1), dy_xi = dJ(1, 0), dy_eta = dJ(1, 1);
     const double J_xx = x_xi + dx_xi, J_xy = x_eta + dx_eta, J_yx = y_xi + dy_xi, J_yy = y_eta + dy_eta;
     const double det0 = x_xi * y_eta - x_eta * y_xi, det = J_xx * J_yy - J_xy * J_yx;
-    const double r0 = kRing ? to.x.dot(at.N) : 1.0, dr = kRing ? to.dx.dot(at.N) : 0.0, r = r0 + dr;
+    const double r0 = kRing ? to.before.row(0).dot(at.N) : 1.0, dr = kRing ? to.du.row(0).dot(at.N) : 0.0;
+    const double r = r0 + dr;
     if (!(det0 > 0.0) || !(det > 0.0) || (kRing && (!(r0 > 0.0) || !(r > 0.0)))) return false;
-    m.gx = (J_yy * dN_xi - J_yx * dN_eta) / det;
-    m.gy = (J_xx * dN_eta - J_xy * dN_xi) / det;
+    m.gx = (J_yy / det) * dN_xi - (J_yx / det) * dN_eta;
+    m.gy = (J_xx / det) * dN_eta - (J_xy / det) * dN_xi;
     if constexpr (kRing)
       m.hoop = at.N / r;
     else

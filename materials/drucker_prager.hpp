@@ -40,7 +40,7 @@ struct DruckerPragerParameters {
 // the mean stress is held there and the deviator is what the cone leaves: zero at the apex, whatever beta is.
 // With free_mean the flow stays without volume change there too: only the deviator goes, the mean stress may be
 // tensile.  That is what a program does which knows no apex, the source chapter's among them.
-class DruckerPrager : public SolidLaw, public ElasticShear {
+class DruckerPrager : public ElasticShear {
  public:
   explicit DruckerPrager(const DruckerPragerParameters& parameters);
   // Sums of sqrt(2 de_p:de_p), the plastic shear gamma of simple shear, and of the plastic

@@ -27,7 +27,7 @@ struct HoekBrownStrength {
   MovingPlanes touching(double x) const;
 };
 
-class HoekBrown final : public SolidLaw, public ElasticShear {
+class HoekBrown final : public ElasticShear {
  public:
   HoekBrown(const ElasticModuli& elastic, const HoekBrownStrength& strength)
       : elastic_(elastic), strength_(strength), D_elastic_(elastic_matrix(elastic)) {}

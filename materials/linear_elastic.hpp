@@ -21,7 +21,7 @@ ElasticModuli moduli_from_young_and_bulk(double youngs_modulus, double bulk_modu
 // D = K 1x1 + 2G I_dev with engineering shear.                              [chapter 7, E matrix]
 Matrix4 elastic_matrix(const ElasticModuli& moduli);
 
-class LinearElastic final : public SolidLaw, public ElasticShear {
+class LinearElastic final : public ElasticShear {
  public:
   explicit LinearElastic(const ElasticModuli& moduli) : D_(elastic_matrix(moduli)) {}
   LawTraits traits() const override { return {.symmetric = true, .linear = true}; }

@@ -31,10 +31,9 @@ struct CamClay {
   double floor;         // least mean stress as a share of the first p_c                         [-]
 };
 
-class ModifiedCamClay final : public SolidLaw,
+class ModifiedCamClay final : public ElasticShear,
                               public PathError<4>,
                               public StartAdjustment<4>,
-                              public ElasticShear,
                               public LawRemark {
  public:
   // Of the parameters `floor` must not exceed 1/4.

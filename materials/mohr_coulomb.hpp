@@ -18,7 +18,7 @@ MohrCoulombPlanes mohr_coulomb_planes(double c, double phi, double psi, double T
 // (s1 - s3) / (2 c cos phi - (s1 + s3) sin phi), tension positive, or s1/T if that is larger; 1 at the apex.
 double mohr_coulomb_level(const MohrCoulombPlanes& planes, const Vector4& sigma);
 
-class MohrCoulomb final : public SolidLaw, public ElasticShear {
+class MohrCoulomb final : public ElasticShear {
  public:
   MohrCoulomb(const ElasticModuli& elastic, const MohrCoulombPlanes& planes)
       : elastic_(elastic), planes_(planes), D_elastic_(elastic_matrix(elastic)) {}

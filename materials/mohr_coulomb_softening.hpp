@@ -33,7 +33,7 @@ struct StrengthPath {
   ValueAndSlope strain_at(double kappa, double size) const;
 };
 
-class MohrCoulombSoftening final : public SolidLaw, public ElasticShear {
+class MohrCoulombSoftening final : public ElasticShear {
  public:
   MohrCoulombSoftening(const ElasticModuli& elastic, const StrengthPath& path)
       : elastic_(elastic), path_(path), D_elastic_(elastic_matrix(elastic)) {}

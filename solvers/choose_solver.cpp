@@ -4,9 +4,10 @@
 
 namespace sage {
 
-int choose_solver(int equations, bool symmetric) {
-  if (equations < kProfileEquations) return symmetric ? solver_code::skyline_ldlt : solver_code::skyline_lu;
-  return symmetric ? solver_code::frontal_ldlt : solver_code::frontal;
+int choose_solver(const SystemSize& system) {
+  if (system.equations < profile_equations(system))
+    return system.symmetric ? solver_code::skyline_ldlt : solver_code::skyline_lu;
+  return system.symmetric ? solver_code::frontal_ldlt : solver_code::frontal;
 }
 
 }  // namespace sage

@@ -15,8 +15,8 @@ class Trials;
 
 struct RunSettings {
   int solver = -1;  // catalogue code; -1 = the model's, 0 = automatic
-  // Picks a catalogue code from the scene when automatic: (equations, symmetric) -> code.
-  std::function<int(int, bool)> choose_solver;
+  // Picks a catalogue code when automatic.
+  std::function<int(const SystemSize&)> choose_solver;
   int threads = 1;                       // of the linear solver; results do not depend on it
   Kernels kernels = Kernels::automatic;  // of the linear solver, likewise
   int refinement = 0;                    // steps of iterative refinement in every solution

@@ -37,14 +37,14 @@ System::System(const Model& model, const Catalogue& catalogue, const RunSettings
   assembly_->set_threads(settings.threads);
 }
 
-const SolverEntry* System::choose_solver(int equations, bool symmetric) const {
+const SolverEntry* System::choose_solver(const SystemSize& size) const {
   int code = settings_.solver >= 0 ? settings_.solver : model_.solver;
-  if (code == 0 && settings_.choose_solver) code = settings_.choose_solver(equations, symmetric);
+  if (code == 0 && settings_.choose_solver) code = settings_.choose_solver(size);
   const SolverEntry* entry = catalogue_.solvers.find(code);
   if (entry == nullptr)
     throw AnalysisError("S213",
                         "solver " + std::to_string(code) + " is unknown; " + catalogue_.solvers.known());
-  if (entry->symmetric && !symmetric)
+  if (entry->symmetric && !size.symmetric)
     throw AnalysisError(
         "S324", "solver " + entry->name + " is for symmetric matrices only; this scene has an unsymmetric law");
   return entry;
@@ -61,7 +61,7 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry, bool one_fa
 }
 
 void System::analyse() {
-  const SolverEntry* entry = choose_solver(assembly_->equations(), scene_.symmetric);
+  const SolverEntry* entry = choose_solver({assembly_->equations(), scene_.symmetric, model_.has_pores()});
   std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
   if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get()))
     placed->set_places(places_of(model_.mesh, *assembly_));
@@ -100,7 +100,7 @@ void System::open_stage(int s) {
     assembly_->enter_stage(activity_, rate_);
   else
     assembly_->enter_stage(activity_, rate_, stage.increments, [&](int equations, bool symmetric) {
-      return make(*choose_solver(equations, symmetric), true);
+      return make(*choose_solver({equations, symmetric}), true);
     });
   tangent_.set_rate(rate_);
   exits_.enter(model_, activity_, s);

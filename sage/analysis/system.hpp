@@ -53,7 +53,7 @@ class System {
 
  private:
   void enter(const Stage& stage);
-  const SolverEntry* choose_solver(int equations, bool symmetric) const;
+  const SolverEntry* choose_solver(const SystemSize& size) const;
   std::unique_ptr<LinearSolver> make(const SolverEntry& entry, bool one_factorisation) const;
   void analyse();
   void take_exits(const Eigen::VectorXd& u, double part);

@@ -82,7 +82,7 @@ bounds::Quantity quantity_of(const BoundsOptions& options, const Model& model, i
 RunSettings run_settings(const BoundsOptions& options, Task& task) {
   RunSettings settings;
   settings.threads = threads_for(options.threads);
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   settings.stop_asked = [] { return interrupted(); };
   settings.pulse = task.pulse();
   return settings;

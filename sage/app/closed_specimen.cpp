@@ -180,7 +180,7 @@ SpecimenCurve run_specimen(const ClosedSpecimen& specimen, const std::vector<Spe
                            const Catalogue& catalogue, Pulse* pulse) {
   const Model model = build_model(specimen_input(specimen, parts), catalogue);
   RunSettings settings;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   settings.pulse = pulse;
   SpecimenCurve curve;
   Gauge gauge(specimen, parts, model, curve.states);

@@ -141,7 +141,7 @@ compare::Side run_model(Model model, const std::string& label, const SideOptions
   RunSettings settings;
   settings.threads = threads_for(options.threads);
   settings.kernels = options.kernels;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   settings.stop_asked = interrupted;
   Task task("compare " + stem);
   settings.pulse = task.pulse();

@@ -131,7 +131,7 @@ LargeCurve run_large_specimen(const LargeSpecimen& specimen, double strain, int 
                               const Catalogue& catalogue, Pulse* pulse) {
   const Model model = build_model(large_specimen_input(specimen, strain, increments), catalogue);
   RunSettings settings;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   settings.pulse = pulse;
   Reports reports;
   Observer* const observers[] = {&reports};

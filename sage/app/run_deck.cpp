@@ -36,7 +36,7 @@ RunSettings settings_for(const RunRequest& request) {
   };
   settings.stream_function = named(request.output.fields) || named(request.output.pictures);
   settings.profile_memory = request.profile;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   return settings;
 }
 

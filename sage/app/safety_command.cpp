@@ -100,7 +100,7 @@ MeshResult find_on_mesh(const SafetyOptions& options, const Catalogue& catalogue
   RunSettings settings;
   settings.threads = threads_for(options.threads);
   settings.kernels = options.kernels;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   settings.stop_asked = [] { return interrupted(); };
   settings.pulse = task.pulse();
   safety::Options search = options.search;

@@ -172,7 +172,7 @@ int run_sweep(const SweepCommand& command, const Catalogue& catalogue) {
     options.program = own_sum();
     options.stop_asked = [] { return interrupted(); };
     if (command.report) ask_for_pages(command, all, name, options);
-    options.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+    options.choose_solver = choose_solver;
     options.progress = [&](std::size_t done, std::size_t count) {
       task.part("cases", static_cast<int>(std::min(done + 1, count)), static_cast<int>(count));
     };

@@ -16,9 +16,10 @@ void Verbose::tell(const std::string& text) const {
 std::string Verbose::why_solver(const Model& model, int equations, bool symmetric) const {
   if (!request_->solver.empty()) return "asked for by --solver";
   if (model.solver != 0) return fmt::format("the deck's code {}", model.solver);
-  return fmt::format("{} laws; {} {} equations", symmetric ? "symmetric" : "unsymmetric",
-                     equations < kProfileEquations ? "a profile solver below" : "multifrontal from",
-                     kProfileEquations);
+  const int limit = profile_equations({equations, symmetric, model.has_pores()});
+  return fmt::format("{} laws; {} {} equations{}", symmetric ? "symmetric" : "unsymmetric",
+                     equations < limit ? "a profile solver below" : "multifrontal from", limit,
+                     model.has_pores() ? " of models with pore water" : "");
 }
 
 void Verbose::on_start(const Model& model, const Scene& scene, std::string_view solver, int equations) {

@@ -25,6 +25,13 @@ struct ElementEquations {
   }
 };
 
+// What the choice of a solver depends on.
+struct SystemSize {
+  int equations = 0;
+  bool symmetric = false;
+  bool pores = false;  // the model has excess pressures (ElementEquations::pressure)
+};
+
 struct SolverTraits {
   std::string_view name;
   bool symmetric = false;  // uses only a symmetric K (one triangle); must not be given an unsymmetric one

@@ -86,8 +86,8 @@ bool is_same(const Diagnostic& one, const Diagnostic& other) {
   const auto place = [](const SourcePosition& at) {
     return std::tie(at.line, at.first_column, at.last_column, at.file);
   };
-  return one.where.first_column > 0 && one.severity == other.severity &&
-         place(one.where) == place(other.where) && one.code == other.code && one.message == other.message;
+  return one.where.line > 0 && one.severity == other.severity && place(one.where) == place(other.where) &&
+         one.code == other.code && one.message == other.message;
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ namespace {
 RunSettings settings_of(const RunOptions& options) {
   RunSettings settings;
   settings.threads = options.threads;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   return settings;
 }
 

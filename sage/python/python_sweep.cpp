@@ -38,7 +38,7 @@ std::string run_sweep(const std::string& study_file, const std::string& folder, 
     const auto sum = checksum_of(module);
     options.program = sum ? sum->value() : 0;
     options.stop_asked = signals.stop_asked();
-    options.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+    options.choose_solver = choose_solver;
     // In this thread, which alone sees signals.
     options.progress = [stop = options.stop_asked](std::size_t, std::size_t) { (void)stop(); };
     const sweep::SweepResult result = all.run(journal, options);

@@ -20,7 +20,7 @@ struct SweepOptions {
   int part = 0, parts = 1;    // only cases part, part + parts ... from 0
   std::uint64_t program = 0;  // tells programs apart: their outcomes are not mixed
   StopAsked stop_asked{};     // ends it early
-  std::function<int(int, bool)> choose_solver{};
+  std::function<int(const SystemSize&)> choose_solver{};
   // What observes the run of a case (from 0) besides; called from the threads of the cases.  A case with observers is run
   // though its outcome is kept.
   std::function<std::vector<std::unique_ptr<Observer>>(std::size_t index, CaseKey key)> observers{};

@@ -106,7 +106,7 @@ ErrorComparison compare_errors(const LameDeck& deck, const BuildOptions& options
   const Model model =
       build_model(read_deck_text(deck.text(), "deck", load_layout("sage1")), catalogue, options);
   RunSettings settings;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   settings.threads = threads;
   ErrorComparison watch(deck.body, deck.nu);
   Observer* observers[] = {&watch};

@@ -31,8 +31,7 @@ const Catalogue& everything() {
   return catalogue;
 }
 const Workbench& bench() {
-  static const Workbench workbench(
-      everything(), [](int equations, bool symmetric) { return choose_solver(equations, symmetric); });
+  static const Workbench workbench(everything(), choose_solver);
   return workbench;
 }
 

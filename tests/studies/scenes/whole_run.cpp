@@ -80,7 +80,7 @@ int WholeRun::iterations() const {
   return sum;
 }
 
-Workbench::Workbench(Catalogue catalogue, std::function<int(int, bool)> choose_solver)
+Workbench::Workbench(Catalogue catalogue, std::function<int(const SystemSize&)> choose_solver)
     : catalogue_(std::move(catalogue)),
       layout_(load_layout("sage1")),
       choose_solver_(std::move(choose_solver)) {}

@@ -55,7 +55,7 @@ struct WholeRun {
 // What decks are run with: all elements, laws and solvers, the built-in layout, the rule that picks a solver.
 class Workbench {
  public:
-  Workbench(Catalogue catalogue, std::function<int(int, bool)> choose_solver);
+  Workbench(Catalogue catalogue, std::function<int(const SystemSize&)> choose_solver);
 
   const Catalogue& catalogue() const { return catalogue_; }
   // Of a run by hand: with the rule that picks a solver.
@@ -76,7 +76,7 @@ class Workbench {
  private:
   Catalogue catalogue_;
   Layout layout_;
-  std::function<int(int, bool)> choose_solver_;
+  std::function<int(const SystemSize&)> choose_solver_;
 };
 
 }  // namespace sage::scenes

@@ -65,7 +65,7 @@ Workbench bench() {
   Catalogue catalogue = app::full_catalogue();
   catalogue.materials.add(90, own::maxwell());
   catalogue.materials.add(91, clock_entry());
-  return {catalogue, [](int, bool) { return 1; }};
+  return {catalogue, [](const SystemSize&) { return 1; }};
 }
 
 // A column 1 x 1 of two elements, pressed by 0.01 in the first stage and held in the second.
@@ -123,7 +123,7 @@ Last clocks(const DeckWriter& deck, double duration, const std::string& resume =
   Model model = workbench.build(deck.text());
   model.stages[1].duration = duration;
   RunSettings settings;
-  settings.choose_solver = [](int, bool) { return 1; };
+  settings.choose_solver = [](const SystemSize&) { return 1; };
   settings.resume_from = resume;
   if (checkpoints != nullptr) {
     settings.checkpoint_due = [] { return true; };

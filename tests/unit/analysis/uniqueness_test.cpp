@@ -90,7 +90,7 @@ TEST(PointsWithoutStiffness, AreCountedByTheirTangent) {
                                [](std::span<const double> values, const UnitSystem&) -> LawPtr {
                                  return std::make_unique<Torn>(values[0]);
                                }});
-  const scenes::Workbench bench{catalogue, [](int, bool) { return 1; }};
+  const scenes::Workbench bench{catalogue, [](const SystemSize&) { return 1; }};
   for (const double stretch : {0.005, 0.02}) {
     test::Block block;
     block.columns = 3;

@@ -100,7 +100,7 @@ TEST(LargeSpecimen, EndsOfContactAreInterfacesAtSmallStrain) {
   ASSERT_EQ(large.reason, "");
   const Model model = build_model(with_interfaces(input), full_catalogue());
   RunSettings settings;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   Reports reports;
   Observer* const observers[] = {&reports};
   ASSERT_EQ(run(model, full_catalogue(), settings, observers).status, RunStatus::completed);

@@ -39,7 +39,7 @@ Catalogue with_bar() {
 }
 
 scenes::Workbench bench() {
-  return {with_bar(), [](int, bool) { return 1; }};
+  return {with_bar(), [](const SystemSize&) { return 1; }};
 }
 
 DeckWriter truss() {

@@ -37,7 +37,7 @@ Catalogue with_own() {
 }
 
 scenes::Workbench bench() {
-  return {with_own(), [](int, bool) { return 1; }};
+  return {with_own(), [](const SystemSize&) { return 1; }};
 }
 
 // The committed history of the first group, increment by increment.

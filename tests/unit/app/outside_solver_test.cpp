@@ -17,7 +17,7 @@ namespace {
 scenes::Workbench with_sparse_lu() {
   Catalogue catalogue = app::full_catalogue();
   catalogue.solvers.add(90, own::sparse_lu());
-  return {catalogue, [](int, bool) { return 90; }};
+  return {catalogue, [](const SystemSize&) { return 90; }};
 }
 
 // Drucker-Prager soil without dilation on a rough base, c = 10, phi = 30: an unsymmetric tangent.  Both stop at

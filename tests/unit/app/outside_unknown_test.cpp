@@ -309,7 +309,7 @@ TEST(OutsideUnknown, RestartsGoOnBitByBit) {
   const auto end_of = [&](RunSettings settings) {
     Keep keep;
     Observer* const watch[] = {&keep};
-    settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+    settings.choose_solver = choose_solver;
     EXPECT_EQ(run(*model, catalogue, settings, watch).status, RunStatus::completed);
     return keep.u;
   };

@@ -31,10 +31,11 @@ TEST(Diagnostics, ListsTheSameMistakeOnce) {
   for (int node = 0; node < 3; ++node)
     for (const int column : {5, 9}) d.error("S117", {"a.dat", 3, column, column}, "one");
   d.error("S117", {"a.dat", 3, 5, 5}, "two");
-  d.error("S117", {"a.dat", 3, 0, 0}, "no place");
-  d.error("S117", {"a.dat", 3, 0, 0}, "no place");
+  // Of a table's line, such as "x_value is left blank".
+  for (int node = 0; node < 2; ++node) d.note("S234", {"a.sage.toml", 3, 0, 0}, "left blank");
+  for (int node = 0; node < 2; ++node) d.error("S117", {"a.dat", 0, 0, 0}, "no place");
   EXPECT_EQ(d.errors(), 9);
-  EXPECT_EQ(d.list().size(), 5u);
+  EXPECT_EQ(d.list().size(), 6u);
 }
 
 TEST(InputError, ShowsTheFirstError) {

@@ -128,8 +128,7 @@ std::string e1(int first, int last, const std::string& factor) {
 }
 
 scenes::WholeRun run_cande(const std::string& text) {
-  const scenes::Workbench bench(
-      full_catalogue(), [](int equations, bool symmetric) { return choose_solver(equations, symmetric); });
+  const scenes::Workbench bench(full_catalogue(), choose_solver);
   return bench.run(
       build_model(read_deck_text(text, "small.cid", load_layout("cande_level3")), full_catalogue()));
 }

@@ -25,8 +25,7 @@ std::string text_of(const std::string& path) {
 }
 
 const scenes::Workbench& bench() {
-  static const scenes::Workbench one(app::full_catalogue(),
-                                     [](int n, bool symmetric) { return choose_solver(n, symmetric); });
+  static const scenes::Workbench one(app::full_catalogue(), choose_solver);
   return one;
 }
 

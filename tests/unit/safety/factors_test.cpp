@@ -23,7 +23,7 @@ const scenes::Workbench& factor_bench() {
 
 RunSettings with_solver() {
   RunSettings settings;
-  settings.choose_solver = [](int equations, bool symmetric) { return choose_solver(equations, symmetric); };
+  settings.choose_solver = choose_solver;
   return settings;
 }
 
