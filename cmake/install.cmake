@@ -43,7 +43,7 @@ install(EXPORT sagefeTargets NAMESPACE sagefe:: DESTINATION ${SAGE_PACKAGE_DIR})
 set(SAGE_HEADERS_DIR ${CMAKE_INSTALL_INCLUDEDIR}/sagefe)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/sagefeConfig.cmake.in ${PROJECT_BINARY_DIR}/sagefeConfig.cmake
                               INSTALL_DESTINATION ${SAGE_PACKAGE_DIR} PATH_VARS SAGE_HEADERS_DIR)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/sagefeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/sagefeConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sagefeConfig.cmake ${PROJECT_BINARY_DIR}/sagefeConfigVersion.cmake
               ${CMAKE_CURRENT_LIST_DIR}/sagefePlugin.cmake ${CMAKE_CURRENT_LIST_DIR}/sagefeHeaderHash.cmake
         DESTINATION ${SAGE_PACKAGE_DIR})

@@ -85,7 +85,8 @@ void answer_moves(const AlignedLines& lines) {
 int align_deck(const AlignOptions& options) {
   const std::string text = read_file(options.deck);
   check_is_text(text, options.deck);
-  const Layout layout = load_layout(options.layout.empty() ? detect_layout(text) : options.layout);
+  const Layout layout =
+      load_layout(options.layout.empty() ? detect_layout(text, options.deck) : options.layout);
   const AlignedLines lines = aligned_lines(text, options.deck, layout);
   int moved = 0;
   bool doubtful = false;

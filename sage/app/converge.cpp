@@ -364,10 +364,12 @@ class Table {
     file_.text() += "# " + text + "\n";
     fmt::print(screen_, "  {}\n", text);
   }
-  void finish(const std::string& last) {
+  void finish(const std::string& last, const std::vector<std::filesystem::path>& reports) {
     note(last);
     file_.finish();
     fmt::print(screen_, "  files     {}\n", file_.path().string());
+    for (const std::filesystem::path& report : reports)
+      fmt::print(screen_, "            {}\n", report.string());
   }
 
   const std::filesystem::path& path() const { return file_.path(); }
@@ -467,7 +469,8 @@ MeshSequence ConvergenceStudy::choose_sequence() {
   const MeshSequence sequence = sequence_for(first, catalogue_);
   if (sequence.kind == MeshSequence::spectral && (build.element > 0 || build.formulation >= 0))
     say_note(request_.deck,
-             "where the scene allows it --converge chooses elements and formulation itself: --element and "
+             "for quadrilaterals with linear laws and without interfaces --converge chooses elements and "
+             "formulation itself: --element and "
              "--formulation are not used",
              "S909");
   if (sequence.kind == MeshSequence::halving) return sequence;
@@ -687,6 +690,8 @@ Convergence ConvergenceStudy::outcome(bool reached) const {
     result.options = best->options;
     result.best_run = rows_.empty() ? without_run_ : rows_[follower_.best() - 1].run;
   }
+  if (!rows_.empty())
+    for (const auto& [path, bytes] : rows_[follower_.best() - 1].files) result.reports.push_back(path);
   return result;
 }
 
@@ -707,7 +712,7 @@ Convergence ConvergenceStudy::run() {
   last += fmt::format("; {:.3g} s", seconds_since(start_));
   if (!partial_.empty()) last += "; PARTIAL: " + partial_;
   if (!reached) last += "; NOT REACHED: " + result.not_reached;
-  table_->finish(last);
+  table_->finish(last, result.reports);
   if (own_) say_left(request_.deck, own_->close());
   return result;
 }
@@ -757,8 +762,10 @@ Json convergence_json(const Convergence& found) {
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue,
              Json* answer_of_deck) {
   const Convergence found = refine_until_converged(request, options, catalogue);
+  std::vector<std::filesystem::path> files{found.table};
+  files.insert(files.end(), found.reports.begin(), found.reports.end());
   if (answer_of_deck != nullptr)
-    *answer_of_deck = {{"convergence", convergence_json(found)}, {"files", files_json({found.table})}};
+    *answer_of_deck = {{"convergence", convergence_json(found)}, {"files", files_json(files)}};
   if (!found.not_reached.empty()) say_error(request.deck, "NOT REACHED: " + found.not_reached, "S408");
   return found.exit_code;
 }

@@ -45,6 +45,7 @@ struct Convergence {
   std::string geometry;                  // what no error holds of curved sides; empty where all are straight
   std::shared_ptr<RunOutcome> best_run;  // where the request asks for results to be kept
   std::filesystem::path table;
+  std::vector<std::filesystem::path> reports;  // files of the best mesh
 };
 
 // Prints a row a mesh and the result; writes STEM.convergence.csv and the reports of the best mesh (those of

@@ -39,8 +39,8 @@ void note_half_layout(const std::string& name) {
 }
 
 std::string names_of(const EchoOptions& options) {
-  const std::string name =
-      options.input.layout.empty() ? detect_layout(read_file(options.deck)) : options.input.layout;
+  const std::string name = options.input.layout.empty() ? detect_layout(read_file(options.deck), options.deck)
+                                                        : options.input.layout;
   const Layout layout = load_layout(name, false);
   return "names of layout " + layout.name + (layout.title.empty() ? "" : ", " + layout.title) + '\n' +
          names_listing(layout);
@@ -102,7 +102,8 @@ int echo_broken(const EchoOptions& options, const InputError& error) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(options.deck, ignored)) {
     const std::string text = read_file(options.deck);
-    const std::string name = options.input.layout.empty() ? detect_layout(text) : options.input.layout;
+    const std::string name =
+        options.input.layout.empty() ? detect_layout(text, options.deck) : options.input.layout;
     ReadOptions read;
     read.strict = options.input.strict;
     read.shown = 1'000'000;

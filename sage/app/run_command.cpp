@@ -190,10 +190,11 @@ int compute_deck(const RunOptions& options, const std::string& deck, const Catal
       const OutputOptions& output = request.output;
       if (output.nodes || output.points || output.vtu || output.msh || output.result || options.report ||
           output.error || !output.states.empty() || !output.pictures.empty() || request.restart)
-        say_note(deck,
-                 "--converge writes its table only; the options of its last line give that mesh again, with "
-                 "all outputs",
-                 "S909");
+        say_note(
+            deck,
+            "--converge writes its table and the reports of the best mesh; the options of a line of the table "
+            "give its mesh again, with all outputs",
+            "S909");
       return converge(request, options.converge, catalogue, screen().json ? &found : nullptr);
     }
     return request.input.build.factors.empty() ? compute_request(request, catalogue, found)

@@ -345,7 +345,7 @@ void refuse_draft(const Deck& deck) {
         "S148", {deck.file, 0, 0, 0},
         "the layout \"" + deck.layout +
             "\" is a draft, under which decks can only be shown (sagefe echo, sagefe layout check): "
-            "finish it, then take out its line draft = true");
+            "finish it, then delete its line draft = true");
 }
 
 }  // namespace

@@ -57,8 +57,10 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
     return true;
   }
   SourcePosition where = log_.line(records_.line());
+  const auto is_field = [](const ExpressionNode& node) { return node.kind == ExpressionNode::Kind::field; };
+  if (std::ranges::none_of(expression.nodes, is_field)) return "given by the layout";
   for (const ExpressionNode& node : expression.nodes)
-    if (node.kind == ExpressionNode::Kind::field)
+    if (is_field(node))
       if (const FieldValue* value = field_value(node.card, node.field)) where = log_.where(*value);
   const std::string computed = expression.nodes.size() > 1 ? expression.source + " with " : "";
   fail_and_stop(where, "the number of " + what + " can't be " + number_text(number) + " (" + computed +
@@ -68,8 +70,10 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
 
 // "nodes of the control card, line 4" for a count that is a single field.
 std::string DeckReader::count_source(const Expression& expression) const {
+  const auto is_field = [](const ExpressionNode& node) { return node.kind == ExpressionNode::Kind::field; };
+  if (std::ranges::none_of(expression.nodes, is_field)) return "given by the layout";
   for (const ExpressionNode& node : expression.nodes)
-    if (node.kind == ExpressionNode::Kind::field)
+    if (is_field(node))
       if (const FieldValue* value = field_value(node.card, node.field)) {
         const CardRule& rule = rule_of(node.card);
         return rule.spec.fields[node.field].label + " of the " + card_text(rule.spec.label) + ", line " +

@@ -456,7 +456,7 @@ Deck read_what_can_be(std::string text, const std::string& name, const Layout& l
 Deck read_deck(const std::string& path, const ReadOptions& options) {
   if (is_model_file(path)) return read_model_file_text(read_file(path), path);
   const SourceText source = source_of(read_file(path), path);
-  const std::string recognised = recognised_layout(*source.text());
+  const std::string recognised = recognised_layout(*source.text(), path);
   const Layout layout = load_layout(recognised.empty() ? std::string(kStandardLayout) : recognised);
   try {
     return DeckReader(source, layout, options).read();

@@ -1,6 +1,7 @@
 #include "sage/deck/layout.hpp"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "sage/deck/embedded.hpp"
 #include "sage/deck/layout_bytes.hpp"
@@ -20,6 +21,22 @@ std::string named_layout(std::string_view first_line) {
   const std::size_t begin = rest.find_first_not_of(' ');
   if (begin == std::string_view::npos) return {};
   return std::string(rest.substr(begin, rest.find(' ', begin) - begin));
+}
+
+bool is_path(const std::string& name) {
+  return name.find('/') != std::string::npos || name.find('.') != std::string::npos;
+}
+
+// A layout file that a deck names is beside the deck, or in the folder of the command.
+std::string found_beside(const std::string& deck, const std::string& name) {
+  const std::string beside = (std::filesystem::path(deck).parent_path() / name).string();
+  std::error_code ignored;
+  for (const std::string& file : {beside, name})
+    if (std::filesystem::exists(file, ignored)) return file;
+  throw InputError("S101", {deck, 1, 0, 0},
+                   "the layout " + name +
+                       " that this line names can't be opened: it is neither in the deck's "
+                       "folder nor in the folder of the command");
 }
 
 // What: a layout, or its marks alone.
@@ -56,25 +73,26 @@ Layout load_layout(const std::string& path_or_name, bool checked) {
   for (const EmbeddedLayout& embedded : embedded_layouts())
     if (embedded.name == path_or_name) return unpacked<Layout>(embedded);
   if (path_or_name == kWideLayout) return wide_layout(load_layout(std::string(kStandardLayout)));
-  const bool path = path_or_name.find('/') != std::string::npos || path_or_name.find('.') != std::string::npos;
-  if (path) return (checked ? load_checked_layout : load_layout_text)(read_file(path_or_name), path_or_name);
+  if (is_path(path_or_name))
+    return (checked ? load_checked_layout : load_layout_text)(read_file(path_or_name), path_or_name);
   std::string known;
   for (const std::string& name : built_in_layouts()) known += (known.empty() ? "" : ", ") + name;
   throw InputError("S140", {path_or_name, 0, 0, 0},
                    "no layout of this name is built in (known: " + known + "); give the path of a layout file");
 }
 
-std::string recognised_layout(std::string_view deck_text) {
+std::string recognised_layout(std::string_view deck_text, const std::string& file) {
   const SourceText deck(std::string(deck_text.substr(0, 4000)), "");
-  if (std::string named = named_layout(deck.line(1)); !named.empty()) return named;
+  if (std::string named = named_layout(deck.line(1)); !named.empty())
+    return is_path(named) && !file.empty() ? found_beside(file, named) : named;
   for (const EmbeddedLayout& embedded : embedded_layouts())
     if (embedded.has_marks && has_marks(unpacked<std::vector<LayoutMark>>(embedded), deck))
       return std::string(embedded.name);
   return {};
 }
 
-std::string detect_layout(std::string_view deck_text) {
-  std::string name = recognised_layout(deck_text);
+std::string detect_layout(std::string_view deck_text, const std::string& file) {
+  std::string name = recognised_layout(deck_text, file);
   return name.empty() ? std::string(kStandardLayout) : name;
 }
 

@@ -117,10 +117,11 @@ Diagnostics name_problems(const Layout& layout);
 // Every name of the layout and who uses it, and the names that the program also knows for its cards.
 std::string names_listing(const Layout& layout);
 
-// Name of the layout that this deck asks for or bears the marks of; empty if nothing tells.
-std::string recognised_layout(std::string_view deck_text);
-// The same; "sage1" if nothing tells.
-std::string detect_layout(std::string_view deck_text);
+// Name of the layout that this deck names or has the marks of; empty if there are none.  file: of the deck; a layout
+// file that the deck names is searched beside it, then in the folder of the command.  Throws InputError (S101).
+std::string recognised_layout(std::string_view deck_text, const std::string& file = {});
+// The same; "sage1" if there are none.
+std::string detect_layout(std::string_view deck_text, const std::string& file = {});
 
 // The manual of a layout, as Markdown.
 std::string layout_manual(const Layout& layout);

@@ -196,7 +196,7 @@ void refine_as_asked(Work& b) {
     b.note("S407", b.at_line(0), "the mesh stays as it is: no coarser one of quadrilaterals means the same");
   if (options.refine <= 0 && options.gradings.empty() && options.refine_graded <= 0) return;
   warn_point_loads(b);
-  refine(b, options.refine);
+  refine(b, options.refine, "--refine");
   for (const Grading& grading : options.gradings)
     for (const int node : nodes_of(b, grading)) {
       grade(b, node, grading.layers, grading.ratio);
@@ -205,7 +205,7 @@ void refine_as_asked(Work& b) {
           "mesh graded towards node " + std::to_string(b.model.mesh.number[node]) +
               ": where the corner is singular the stress at it does not converge, it grows with every layer");
     }
-  refine(b, options.refine_graded);
+  refine(b, options.refine_graded, "--refine-graded");
   refuse_lost_supports(b, middles, used_nodes(b.model));
   drop_lost_nodes(b, before);
 }

@@ -82,15 +82,15 @@ std::string whole(double count) {
 }
 
 // Before anything is made: refuses what is no use to anybody, announces what takes its time.
-void check_size(Work& b, int times) {
+void check_size(Work& b, int times, const std::string& name) {
   const Refined size = refined(b.model, times);
-  const std::string option = "--refine " + std::to_string(times);
+  const std::string option = name + ' ' + std::to_string(times);
   if (size.elements > kMaxElements) {
     int most = times;
     while (most > 0 && refined(b.model, most).elements > kMaxElements) --most;
     b.error("S402", b.at_line(0),
             option + " would make " + whole(size.elements) + " elements, more than " + whole(kMaxElements) +
-                "; --refine " + std::to_string(most) + " makes " + whole(refined(b.model, most).elements) +
+                "; " + name + ' ' + std::to_string(most) + " makes " + whole(refined(b.model, most).elements) +
                 ". Layers at corners (--grade) and elements of high degree (--element) need far fewer");
     throw InputError(b.problems);
   }
@@ -339,7 +339,8 @@ void Subdivision::finish() {
   for (Stage& stage : b_->model.stages) carry_loads(stage);
 }
 
-void refine(Work& b, int times) {
+void refine(Work& b, int times, const std::string& option) {
+  if (times <= 0) return;
   static const std::vector<ChildCorners> quad{{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}},
                                               {{0, -1}, {1, -1}, {1, 0}, {0, 0}},
                                               {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
@@ -355,7 +356,7 @@ void refine(Work& b, int times) {
       }
     }
   };
-  check_size(b, times);
+  check_size(b, times, option);
   for (int i = 0; i < times; ++i) {
     Subdivision subdivision(b);
     subdivision.reserve(4 * b.model.mesh.nodes());

@@ -63,7 +63,7 @@ class Subdivision {
 };
 
 // Every element into four, interfaces into two, n times.
-void refine(Work& b, int times);
+void refine(Work& b, int times, const std::string& option);
 
 // Layers of ever smaller elements around each of the nodes (indices): those that have it as a corner are split
 // so that the part at the node is `ratio` times as large, again and again.

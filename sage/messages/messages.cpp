@@ -46,7 +46,7 @@ constexpr MessageEntry kMessages[] = {
      "layout, and its first cards do not fit sage1, the layout of sagefe itself. Probably another program "
      "wrote the deck, or an unknown version of a known one.",
      "If you know the layout, name it with --layout NAME or --layout FILE. Otherwise the command sagefe layout "
-     "guess DECK writes a first layout. docs/manual/own_layout.md explains how to complete it."},
+     "guess DECK writes a first layout. docs/manual/layout_guess.md explains how to complete it."},
     {"S106", "a deck of a program with another purpose",
      "The cards are those of a program for problems that sagefe does not solve, such as heat, vibration, "
      "plates or three dimensions.",
@@ -103,7 +103,7 @@ constexpr MessageEntry kMessages[] = {
      "The field holds a code number or word that the layout does not have. It is a typing error, or an option "
      "of the original program that sagefe does not have.",
      "Use one of the codes that the message lists. If the layout is yours, add the code to the map of this "
-     "field (docs/manual/own_layout.md)."},
+     "field (legacy_inputs/layouts/README.md)."},
     {"S118", "a value is not allowed",
      "The field accepts only certain values, or values between limits. The usual reasons are a misplaced "
      "decimal point and a value in the columns of its neighbour.",
@@ -1216,7 +1216,9 @@ constexpr MessageEntry kMessages[] = {
      "Correct the table. A load that acts at once needs a stage of its own (docs/manual/stages.md)."},
     {"S600", "the error of the time steps",
      "A stage with time_error chooses its steps by a bound on the error of each step. Errors decay as the "
-     "pressures do, so that the sum of these bounds is a bound on the error at every time of the stage.",
+     "pressures do, so that the sum of these bounds is a bound on the error at every time of the stage. This "
+     "is proven for "
+     "elastic soil; for other laws it is an estimate.",
      "Nothing needs to be done. A smaller time_error gives a smaller sum, with more steps."},
     {"S601", "a result can't be written",
      "The disk is full, the user may not write to the folder, or a folder or a device has that name. The "
@@ -1580,10 +1582,10 @@ constexpr MessageEntry kMessages[] = {
      "The command reads its deck more than once. A pipe can be read only once.",
      "Save the deck to a file first."},
     {"S909", "an option does nothing here",
-     "Another option makes this one ineffective. For example, --converge writes its table and not the files of "
-     "a run.",
-     "Omit the option. After --converge, the last line of the table gives the options of a run with the same "
-     "mesh."},
+     "Another option makes this one ineffective. For example, --converge writes its table and the reports, "
+     "and no other files of a run.",
+     "Omit the option. After --converge, a line of the table gives the options of a run with the mesh of that "
+     "line."},
     {"S910", "there is no such code",
      "The command sagefe explain needs a code as messages print it in brackets, such as S501.",
      "The command sagefe explain lists all codes. sagefe explain --search WORD lists those whose texts contain "

@@ -49,8 +49,9 @@ void append_level(std::string& text, double level) {
   text.append(digits, sizeof digits);
 }
 
-// History and fields that were asked for: wide enough for their names.
+// Least width of history and fields that were asked for.
 constexpr int kWide = 22;
+constexpr int kBetween = 2;  // blanks before longer names
 
 // What the tables of one group show: components first, then stress level and status, then these.
 struct GroupColumns {
@@ -93,15 +94,22 @@ GroupColumns columns_of(const GroupData& data, const FieldTable& table, const st
   return columns;
 }
 
-void wide_columns(std::string& text, const FieldList& fields, const UnitSystem& units) {
+// The widths of the columns.
+std::vector<int> wide_columns(std::string& text, const FieldList& fields, const UnitSystem& units) {
+  std::vector<int> widths;
   for (const FieldEntry* field : fields)
     for (std::size_t c = 0; c < field->size(); ++c) {
       const std::string unit = unit_text(field->dimension, units), name = field->column(c);
-      column(text, unit == "-" ? name : fmt::format("{} [{}]", name, unit), kWide);
+      const std::string head = unit == "-" ? name : fmt::format("{} [{}]", name, unit);
+      const int length = static_cast<int>(head.size());
+      widths.push_back(length < kWide ? kWide : length + kBetween);
+      column(text, head, widths.back());
     }
+  return widths;
 }
 
-void point_columns(std::string& text, const Model& model, const GroupData& data, const GroupColumns& columns) {
+std::vector<int> point_columns(std::string& text, const Model& model, const GroupData& data,
+                               const GroupColumns& columns) {
   const int number = data.group->number;
   const std::string& name = data.group->name;
   switch (data.group->entry->kind) {
@@ -132,21 +140,22 @@ void point_columns(std::string& text, const Model& model, const GroupData& data,
   for (const FieldEntry* field : columns.components)
     for (std::size_t c = 0; c < field->size(); ++c) column(text, field->label(c, model.geometry));
   text += "   level  status    ";
-  wide_columns(text, columns.wide, model.units);
+  std::vector<int> widths = wide_columns(text, columns.wide, model.units);
   text += '\n';
+  return widths;
 }
 
 // Blank where the value is not known.
-void put_wide(std::string& text, double value) {
+void put_wide(std::string& text, double value, int width) {
   if (std::isnan(value))
-    text.append(kWide, ' ');
+    text.append(static_cast<std::size_t>(width), ' ');
   else
-    append_scientific(text, value, kWide, kDigits);
+    append_scientific(text, value, width, kDigits);
 }
 
 // Place, components, stress level, status, history and what was asked for, of one point.
 void point_values(std::string& text, const Vector2& at, const PointState& point, const GroupColumns& columns,
-                  std::vector<double>& values) {
+                  std::span<const int> widths, std::vector<double>& values) {
   values[0] = at.x();
   values[1] = at.y();
   std::size_t filled = 2;
@@ -159,9 +168,10 @@ void point_values(std::string& text, const Vector2& at, const PointState& point,
   append_level(text, values[0]);
   read_field(*columns.status, point, values.data());
   left(text, word_of(*columns.status, values[0]), columns.wide.empty() ? 0 : 10);
+  auto width = widths.begin();
   for (const FieldEntry* field : columns.wide) {
     read_field(*field, point, values.data());
-    for (std::size_t c = 0; c < field->size(); ++c) put_wide(text, values[c]);
+    for (std::size_t c = 0; c < field->size(); ++c) put_wide(text, values[c], *width++);
   }
   text += '\n';
 }
@@ -193,7 +203,7 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
   column(text, axes.y);
   for (const FieldEntry* field : {&moved, &reaction})
     for (std::size_t c = 0; c < 2; ++c) column(text, field->label(c, model.geometry));
-  wide_columns(text, wide, model.units);
+  const std::vector<int> widths = wide_columns(text, wide, model.units);
   text += '\n';
   std::vector<double> values(most);
   const NodeViews views(model, solution);
@@ -210,9 +220,10 @@ void nodes(std::string& text, const Model& model, const Solution& solution,
     if (!held[0] && (held[1] || !wide.empty())) text.append(kWidth, ' ');
     if (held[1]) put(text, values[1]);
     if (!held[1] && !wide.empty()) text.append(kWidth, ' ');
+    auto width = widths.begin();
     for (const FieldEntry* field : wide) {
       read_field(*field, view, values.data());
-      for (std::size_t c = 0; c < field->size(); ++c) put_wide(text, values[c]);
+      for (std::size_t c = 0; c < field->size(); ++c) put_wide(text, values[c], *width++);
     }
     text += '\n';
   }
@@ -231,7 +242,7 @@ void points(std::string& text, const Model& model, const Solution& solution,
     const std::vector<FieldEntry> history = history_fields(data.law, group.element->traits());
     const GroupColumns columns = columns_of(data, table, history, asked);
     std::vector<double> values(std::max(columns.first, columns.most));
-    point_columns(text, model, data, columns);
+    const std::vector<int> widths = point_columns(text, model, data, columns);
     std::string number, numbers;  // of the element, and of its points
     for (int p = 0; p < count; ++p) append_integer(numbers, p + 1, kPoint);
     for (int e = 0; e < group.elements(); ++e) {
@@ -242,7 +253,8 @@ void points(std::string& text, const Model& model, const Solution& solution,
         const Vector2 at = group.element->position(x, p);
         text += number;
         text.append(numbers, static_cast<std::size_t>(p * kPoint), kPoint);
-        point_values(text, at, {model.mesh, data, static_cast<std::size_t>(e * count + p)}, columns, values);
+        point_values(text, at, {model.mesh, data, static_cast<std::size_t>(e * count + p)}, columns, widths,
+                     values);
       }
     }
   }
@@ -268,7 +280,7 @@ void ends(std::string& text, const Model& model, const Solution& solution) {
     column(text, "node", 9);
     column(text, axis_names(model.geometry).x);
     column(text, axis_names(model.geometry).y);
-    wide_columns(text, fields, model.units);
+    const std::vector<int> widths = wide_columns(text, fields, model.units);
     text += '\n';
     for (const ElementEnd& end : all) {
       append_integer(text, group.element_numbers[end.element], 9);
@@ -276,7 +288,8 @@ void ends(std::string& text, const Model& model, const Solution& solution) {
       append_integer(text, model.mesh.number[end.node], 9);
       put(text, end.place.x());
       put(text, end.place.y());
-      for (const std::size_t q : quantities) put_wide(text, end.value[q]);
+      auto width = widths.begin();
+      for (const std::size_t q : quantities) put_wide(text, end.value[q], *width++);
       text += '\n';
     }
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "tests/regression/program.hpp"
@@ -91,6 +92,24 @@ TEST(CompareConverge, SettlementsOfBothGeometriesHoldTheTrueValues) {
   }
   EXPECT_FALSE(fs::exists(folder / "out/load.convergence.csv"));
   EXPECT_FALSE(fs::exists(folder / "out/load.files"));
+}
+
+// The table and the reports of the best mesh are all that --converge writes, and both are named; so is a note about the
+// expected memory of a finer mesh, once.
+TEST(Converge, NamesAllFilesThatItWrites) {
+  const fs::path folder = empty_folder("converge_files");
+  write(folder / "load.dat", flexible_load());
+  const Finished done = sagefe(folder, "run load.dat --converge 1e-3 --result");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_NE(done.out.find("out/load.convergence.csv\n            out/load.report1.csv\n"), std::string::npos)
+      << done.out;
+  EXPECT_EQ(count(done.err, "[S909]"), 1) << done.err;
+  std::set<std::string> written;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder / "out"))
+    written.insert(file.path().filename().string());
+  EXPECT_EQ(written, (std::set<std::string>{"load.convergence.csv", "load.files", "load.report1.csv"}));
+  const Finished finer = sagefe(folder, "check load.dat --refine 8");
+  EXPECT_EQ(count(finer.err + finer.out, "[S409]"), 1) << finer.err << finer.out;
 }
 
 // Inner pressure p = 1, outer face held, E = 1: a slab from x = 1 to 2 without strain along y, u = p (1 + nu)(1

@@ -1,6 +1,7 @@
 // docs/manual/own_layout.md: its code is what a reader types, and its answers are what he gets.
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <sstream>
 
 #include "tests/regression/program.hpp"
@@ -127,6 +128,30 @@ TEST(OwnLayout, TheSecondProgramIsConverted) {
   EXPECT_NEAR(value("strip.report1.csv", 6), -200.0 * kpa_in_psi * inch, 1e-7);
   EXPECT_NEAR(value("strip.report2.csv", 10), 10.0 * kpa_in_psi, 1e-7);
   EXPECT_EQ(sagefe(folder, "check strip.dat --layout strip.toml --strict").exit_code, 0);
+}
+
+// A layout file that the first line names: beside the deck, or in the folder of the command.
+TEST(OwnLayout, ADeckNamesItsLayoutFile) {
+  const std::filesystem::path folder = empty_folder("own_layout_named");
+  std::filesystem::create_directory(folder / "sub");
+  const std::regex comment("(^|\n)C ");
+  for (const Block& block : blocks_of(read(std::string(SAGE_SOURCE_DIR) + "/docs/manual/own_layout.md")))
+    if (block.kind == "toml strip.toml")
+      write(folder / "sub/strip.toml",
+            std::regex_replace(block.text, std::regex("comment = \"C\""), "comment = \"*\""));
+    else if (block.kind == "deck strip.dat")
+      write(folder / "sub/strip.dat",
+            "* layout: strip.toml\n" + std::regex_replace(block.text, comment, "$1* "));
+  const Finished beside = sagefe(folder, "check sub/strip.dat");
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  std::filesystem::rename(folder / "sub/strip.toml", folder / "strip.toml");
+  const Finished here = sagefe(folder, "check sub/strip.dat");
+  EXPECT_EQ(here.exit_code, 0) << here.err;
+  std::filesystem::remove(folder / "strip.toml");
+  const Finished nowhere = sagefe(folder, "check sub/strip.dat");
+  EXPECT_EQ(nowhere.exit_code, 2);
+  EXPECT_TRUE(nowhere.err.starts_with("sub/strip.dat:1: error: the layout strip.toml that this line names"))
+      << nowhere.err;
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // none.  Skipped where the program is built without HDF5.
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -293,6 +295,16 @@ TEST(Plot, IsochronesAndSettlementOverTime) {
                          "/legacy_inputs/models/embankment_on_clay.sage.toml -q --result --states 5:12,5:16");
   if (without_module(run)) GTEST_SKIP() << "built without HDF5";
   ASSERT_EQ(run.exit_code, 0) << run.err;
+  // Long names of columns keep blanks between them, and their values stand below.
+  std::istringstream listing(read(folder / "out/embankment_on_clay.lst"));
+  std::string head, values;
+  while (std::getline(listing, head) && head.find("excess_pore_pressure") == std::string::npos) {
+  }
+  std::getline(listing, values);
+  EXPECT_NE(head.find("strain  excess_pore_pressure [kPa]  water_content_change  water_displacement_x [m]"),
+            std::string::npos)
+      << head;
+  EXPECT_EQ(head.size(), values.size());
   const Finished plot =
       sagefe(folder,
              "plot out/embankment_on_clay.h5 --picture excess_pressure --line 1,-10:1,0 --at 4 "

@@ -63,6 +63,17 @@ TEST(Computed, AFieldTakesNoColumns) {
   EXPECT_EQ(second.where("cohesion").last_column, 15);
 }
 
+TEST(Computed, ACountOfTheLayoutIsNamedAsOne) {
+  try {
+    read(kMaterials, "    1      300.     2.0E4 clay\n");
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.diagnostics().list().front().message.find("1 missing; given by the layout)"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Computed, StandsAnywhereAmongTheFields) {
   const Deck deck = read(R"toml(
 [[card]]
