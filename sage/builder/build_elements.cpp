@@ -291,7 +291,7 @@ void read_element_card(Builder& b, const CardView& card, ElementFields& fields) 
   const int given = static_cast<int>(element.nodes.size());
   if (given < entry.corners || given > entry.card_nodes) {
     b.error("S217", card.where("n1"),
-            "element " + std::to_string(element.number) + ": a " + entry.name + " has " +
+            "element " + std::to_string(element.number) + ": " + entry.name + " has " +
                 std::to_string(entry.corners) +
                 (entry.nodes > entry.corners ? " to " + std::to_string(entry.card_nodes) : "") +
                 " nodes on its card, not " + std::to_string(given));
@@ -463,7 +463,7 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
   const bool pores = group.entry->has_pores();
   if (number == 0 && !pores) return;
   if (size == 0) {
-    b.error("S225", card.where("second_material"), name + ": a " + group.entry->name + " has one law only");
+    b.error("S225", card.where("second_material"), name + ": " + group.entry->name + " has one law only");
     return;
   }
   const auto found = b.material_index.find(number);
@@ -479,7 +479,7 @@ void read_second_law(Builder& b, const CardView& card, Group& group) {
   }
   b.error(
       "S225", card.where("second_material"),
-      name + ": a " + group.entry->name + " needs a second material, whose law " +
+      name + ": " + group.entry->name + " needs a second material, whose law " +
           (pores ? std::string("is for flow of pore water: ") + (group.interface() ? "pore_joint" : "pore_flow")
                  : "has " + std::to_string(size) + (size == 1 ? " component" : " components")));
 }
@@ -545,7 +545,7 @@ void build_groups(Builder& b) {
         const MaterialEntry* law = b.catalogue.materials.find(m.code);
         if (law != nullptr && (law->law_size != entry->law_size || law->flow != entry->flow() || law->of_pores))
           b.error("S225", card.where("material"),
-                  name + ": a " + entry->name + " needs a law for " + laws_for(*entry) + ", material " +
+                  name + ": " + entry->name + " needs a law for " + laws_for(*entry) + ", material " +
                       std::to_string(m.number) + " is " + law->name);
       }
     }

@@ -459,7 +459,7 @@ void note_unused_values(Builder& b, const CardView& card, InitialKind kind, cons
   b.note("S237", card.where(),
          "not used of this initial stress card: " + unused +
              (kind == InitialKind::uniform && group != nullptr && group->element
-                  ? "; a " + group->entry->name + " has " + std::to_string(values_of(kind, group)) +
+                  ? "; " + group->entry->name + " has " + std::to_string(values_of(kind, group)) +
                         (values_of(kind, group) == 1 ? " component" : " components") + " of stress"
                   : std::string()));
 }

@@ -70,8 +70,7 @@ void Values::know_keys(const toml::table& given, const Table& table, const Mater
   for (const auto& [key, node] : given) {
     const std::string name(key.str());
     if (std::ranges::find(known, name) != known.end()) continue;
-    const std::string whose =
-        table.key.empty() ? "a model file" : (table.key.find_first_of("aeiou") == 0 ? "an " : "a ") + table.key;
+    const std::string whose = table.key.empty() ? "a model file" : "the table " + table.key;
     error("S151", place(key.source()),
           whose + " has no key \"" + name + "\"" + did_you_mean(name, known) + "; known: " + list_of(known));
   }
@@ -315,7 +314,7 @@ std::vector<NewField> Values::fields(const toml::table& given, const Table& tabl
       add_value(key, given, *node, is_list ? last : list);
     else if (key.required && !key.fallback && key.key != "number")
       error("S155", where(given),
-            (table.key.empty() ? "the model" : "a " + table.key) + " needs its " + key.key + ", the " +
+            (table.key.empty() ? "the model" : "the table " + table.key) + " needs its " + key.key + ", the " +
                 key.label);
   }
   list.insert(list.end(), last.begin(), last.end());

@@ -247,11 +247,11 @@ void bad_groups(Cases& c) {
   c.push_back({"solid_law_on_an_interface",
                j.with("group_joint", card({"2", "11", "", "1"})),
                "group_joint:16-20",
-               {"a interface4 needs a law for interfaces", "linear_elastic"}});
+               {"group 2: interface4 needs a law for interfaces", "linear_elastic"}});
   c.push_back({"interface_law_on_a_solid",
                j.with("group_top", card({"3", "1", "", "2"})),
                "group_top:16-20",
-               {"a quad4 needs a law for solids", "goodman"}});
+               {"group 3: quad4 needs a law for solids", "goodman"}});
 }
 
 void bad_elements(Cases& c) {
