@@ -303,13 +303,19 @@ class Skeleton {
     if (used || own.kind != Kind::none) used_.insert(name);
   }
 
-  // The name in the mesh that an option means: Abaqus knows no case.
+  // The name in the mesh that an option means: the same in upper and lower case too, else the only one that differs in
+  // nothing else (Abaqus ignores case).
   std::string place_for(const std::string& wanted) const {
     if (places_.contains(wanted)) return wanted;
-    std::string found;
+    std::vector<std::string> found;
     for (const std::string& name : order_)
-      if (lower_case(name) == lower_case(wanted)) found = found.empty() ? name : found;
-    return found;
+      if (lower_case(name) == lower_case(wanted)) found.push_back(name);
+    if (found.size() > 1)
+      refuse(
+          fmt::format("'{}' may mean '{}': the mesh has these names, and the option needs one of them with its "
+                      "upper and lower case",
+                      wanted, fmt::join(found, "' or '")));
+    return found.empty() ? std::string() : found.front();
   }
 
   static MeshUse use_of_name(const std::string& name) {

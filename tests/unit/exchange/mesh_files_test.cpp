@@ -338,6 +338,21 @@ TEST(MeshFiles, PartAndAssembly) {
   EXPECT_NE(rejection(text, options).find("'RP' has no nodes of the mesh to hold"), std::string::npos);
 }
 
+// Names that differ in upper and lower case alone: an option means the one that it spells exactly.
+TEST(MeshFiles, NamesThatDifferInCaseAloneNeedTheirCase) {
+  std::string text = kText22;
+  text.replace(text.find("\"fix_xy\""), 8, "\"road\"");
+  text.replace(text.find("\"pressure=25\""), 13, "\"Road\"");
+  ForeignMeshOptions options;
+  for (const char* name : {"road", "Road"}) {
+    options.uses = {mesh_use("fix", std::string(name) + "=y")};
+    EXPECT_EQ(mesh_of(text, options).fixities.size(), 2u) << name;
+  }
+  options.uses = {mesh_use("fix", "ROAD=y")};
+  EXPECT_NE(rejection(text, options).find("'ROAD' may mean 'road' or 'Road'"), std::string::npos)
+      << rejection(text, options);
+}
+
 struct Broken {
   std::string text, wanted;
 };
