@@ -377,6 +377,11 @@ void take_factors(builder::Builder& b) {
                              std::to_string(b.model.stages.size()));
   const std::string done = apply_factors(b.model, options.factors.front(), options.actions);
   b.model.diagnostics.add({Severity::note, "S741", where, done, {}});
+  const std::vector<std::string> undivided = undivided_materials(b.model, options.factors.front());
+  if (undivided.empty()) return;
+  std::string text = "these materials keep their strength, because their laws name none to divide:";
+  for (const std::string& one : undivided) text += "\n  " + one;
+  b.model.diagnostics.add({Severity::warning, "S743", where, text, {}});
 }
 
 }  // namespace

@@ -1499,6 +1499,12 @@ constexpr MessageEntry kMessages[] = {
      "a stage that the deck lacks.",
      "Give one set, or the number of a stage of the deck. The commands sagefe run and sagefe safety accept "
      "several sets."},
+    {"S743", "partial factors leave a strength undivided",
+     "The set of --factors divides tan(phi), c or c_u. The law of a listed material has a strength, but no "
+     "parameter that sagefe divides, for example M of modified_cam_clay. The results of its groups are those "
+     "of "
+     "the characteristic strength.",
+     "Enter the design strength on the material card (for example a smaller M), or use a law with c and phi."},
 
     // S8: pieces from outside of the program.
     {"S801", "the deck needs a plug-in that is not loaded",

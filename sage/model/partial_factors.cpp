@@ -109,6 +109,20 @@ bool factor_strength(Material& material, const PartialFactors& set) {
   return any;
 }
 
+bool divides_strength(const PartialFactors& set) {
+  return set.friction != 1.0 || set.cohesion != 1.0 || set.undrained != 1.0;
+}
+
+// An elastic law has no strength.  Interface laws that name none (goodman) have none either: they only open.
+bool keeps_strength(const Material& material) {
+  return part_of(*material.entry) == ModelPart::soil && !has_strength(material) &&
+         !has_constant_stiffness(material.law_ref());
+}
+
+std::string numbered(int number, const std::string& name) {
+  return std::to_string(number) + (name.empty() ? "" : " " + name);
+}
+
 bool among(const std::vector<int>& stages, std::size_t stage) {
   return std::ranges::find(stages, static_cast<int>(stage) + 1) != stages.end();
 }
@@ -171,7 +185,7 @@ std::string apply_factors(Model& model, const PartialFactors& set, const ActionS
     for (NodalLoad& load : stage.loads) load.force *= factor;
     for (EdgeLoad& load : stage.pressures) load.normal *= factor, load.shear *= factor;
   }
-  const bool weaker = set.friction != 1.0 || set.cohesion != 1.0 || set.undrained != 1.0;
+  const bool weaker = divides_strength(set);
   if (weaker)
     for (Material& material : model.materials)
       if (factor_strength(material, set)) material.law = make_law(material, model.units);
@@ -187,6 +201,22 @@ std::string apply_factors(Model& model, const PartialFactors& set, const ActionS
     text += "; tan(phi) / " + number(set.friction) + ", c / " + number(set.cohesion) + ", c_u / " +
             number(set.undrained);
   return text;
+}
+
+std::vector<std::string> undivided_materials(const Model& model, const PartialFactors& set) {
+  std::vector<std::string> list;
+  if (!divides_strength(set)) return list;
+  for (std::size_t m = 0; m < model.materials.size(); ++m) {
+    const Material& material = model.materials[m];
+    if (!keeps_strength(material)) continue;
+    std::string groups;
+    for (const Group& group : model.groups)
+      if (group.material == static_cast<int>(m))
+        groups += (groups.empty() ? " of group " : ", ") + numbered(group.number, group.name);
+    if (!groups.empty())
+      list.push_back(numbered(material.number, material.name) + " (" + material.law_name + ")" + groups);
+  }
+  return list;
 }
 
 }  // namespace sage

@@ -40,4 +40,8 @@ struct ActionStages {
 // that says what was done.
 std::string apply_factors(Model& model, const PartialFactors& set, const ActionStages& stages);
 
+// Materials of solids that are not elastic but name no strength that the set could divide, each with its groups:
+// "2 clay (modified_cam_clay) of group 1 crust".  Their strength stays characteristic.
+std::vector<std::string> undivided_materials(const Model& model, const PartialFactors& set);
+
 }  // namespace sage

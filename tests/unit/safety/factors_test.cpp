@@ -103,6 +103,43 @@ double factor_by_hand(double c, double phi, double pressure) {
   return low;
 }
 
+// What the warning that strengths stay undivided lists; "" without it.
+std::string undivided_in(const std::string& text, const std::string& set) {
+  const Model model = factored_model(text, set, {2});
+  for (const Diagnostic& one : model.diagnostics.list())
+    if (to_string(one.code) == "S743") {
+      EXPECT_EQ(one.severity, Severity::warning);
+      return one.message;
+    }
+  return {};
+}
+
+// The block with another law.
+std::string block_of(const std::string& law) {
+  std::string text = block_under(60.0, 30.0, false);
+  const std::size_t begin = text.find("law = "), end = text.find("[[group]]");
+  return text.replace(begin, end - begin, law)
+      .replace(text.find("[[group]]"), 9, "[[group]]\nname = \"crust\"");
+}
+
+// The critical state of Cam clay is a strength, and no parameter that a set divides.
+TEST(PartialFactors, WarnOfStrengthsThatStayUndivided) {
+  const std::string elastic = "law = \"linear_elastic\"\nyoungs_modulus = 1e4\npoissons_ratio = 0.3\n";
+  const std::string clay =
+      "name = \"clay\"\nlaw = \"modified_cam_clay\"\nM = 1.2\nlambda = 0.2\nkappa = 0.04\n"
+      "specific_volume = 2.0\npoissons_ratio = 0.3\nocr = 1.0\n";
+  const std::string start =
+      "[[initial]]\ngroup = 1\nkind = \"uniform\"\nvalues = [50.0, 50.0, 50.0, 0.0]\n[[stage]]";
+  std::string soft = block_of(clay);
+  soft.replace(soft.find("[[stage]]"), 9, start);
+  EXPECT_NE(undivided_in(soft, "DA1-2").find("1 clay (modified_cam_clay) of group 1 crust"), std::string::npos)
+      << undivided_in(soft, "DA1-2");
+  EXPECT_EQ(undivided_in(soft, "DA1-1"), "");  // divides nothing
+  EXPECT_EQ(undivided_in(block_of(elastic), "DA1-2"), "");
+  EXPECT_EQ(undivided_in(block_under(60.0, 30.0, false), "DA1-2"), "");
+  EXPECT_EQ(undivided_in(kBeam, "DA1-2"), "");
+}
+
 TEST(PartialFactors, SafetyOfABlockByHand) {
   const double degree = std::numbers::pi / 180.0;
   for (const bool ring : {false, true})
