@@ -221,7 +221,7 @@ Section clay_cases() {
               {"clay.undrained_strength", "undrained strength in plane strain",
                "s_u = M p_0^(kappa/lambda) (p_c0/2)^(1 - kappa/lambda)/sqrt 3", Grade::exact,
                "approach to the critical state and stiff water: 1e-4", clay_strength},
-              {"clay.peak", "peak of a dry clay under a growing load",
+              {"clay.peak", "peak of an overconsolidated clay under a growing load",
                "q = 3 (p - sigma_3) on the yield surface, closed form", Grade::exact,
                "12 halvings of a twentieth of the load: 1e-4", clay_peak},
           }};

@@ -146,8 +146,10 @@ Section interface_patch_cases() {
            "closed form", Grade::exact,
            "w = t/k is a difference of displacements known to rounding: 1e-15 k h/E", p4_stiffness},
           {"interface.p5", "nodal forces of a uniform traction in a ring",
-           "closed form; Newton-Cotes on the linear element: r1/2, r2/2, the known defect", Grade::exact,
-           "rounding", p5},
+           "consistent forces; for Newton-Cotes on the linear element its own wrong ones, 2 pi L {r1, r2}/2 "
+           "times the "
+           "traction",
+           Grade::exact, "rounding", p5},
       }};
 }
 

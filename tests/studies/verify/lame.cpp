@@ -159,7 +159,8 @@ void two_ring_case(Record& record) {
 
 Section lame_cases() {
   const std::string source = "Lame: u(a) = (1 + nu)(5 - 2 nu)/3 for the cylinder";
-  const std::string theory = "theory: u 2 and stress 1 for linear, 3 and 2 for quadratic elements, L2";
+  const std::string theory =
+      "orders in the L2 norm: 2 (u) and 1 (stress) for linear, 3 and 2 for quadratic elements";
   return {
       "Thick cylinder and sphere",
       {

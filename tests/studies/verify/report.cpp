@@ -147,19 +147,21 @@ void add_overview(Page& page, const std::vector<Chapter>& chapters) {
 }
 
 constexpr const char* kPreface[] = {
-    "Every case builds a deck, reads it with the program's own reader, runs it and compares. A row passes "
-    "while its "
-    "error is within the gate, and an order of convergence while it is at least the theory's less 0.15, unless "
-    "the "
-    "case says otherwise. Errors marked `rel` are computed/reference - 1, the others computed - reference. A "
-    "failing "
+    "Every case builds a deck, reads it with the program's own reader, runs it and compares. The *gate* of a "
+    "row "
+    "is its largest permitted error. If the gate is marked `rel`, the error is computed/reference - 1, "
+    "otherwise "
+    "computed - reference. If a range is permitted, the reference is its middle and the gate half its width. A "
+    "row with an order of convergence has no gate: it passes if the order is at least the theoretical one, in "
+    "brackets, minus 0.15, unless the case has another limit. A failing "
     "case stays in the table as failing, and `sagefe verify` then ends with exit code 3.",
-    "**Signs and units.** As outside the program, pressures and bearing loads are positive in compression. "
+    "**Signs and units.** As in decks and results, pressures and bearing loads are positive in compression. "
     "Stress "
     "components that are compared with formulas (sigma_r, sigma_z, ...) are tension positive, and marked so. "
     "Displacements are along the axes. Forces are per unit thickness in plane strain and for the full circle "
     "in "
-    "axisymmetry. Numbers are in consistent units, mostly E = p = a = 1; angles are in degrees.",
+    "axisymmetry. Numbers are in consistent units, mostly with E, a pressure and a length of 1; angles are in "
+    "degrees.",
     "**References.** *closed form*: exact, with the formula in the source file of the case. *converged "
     "computation*: "
     "an independent hp finite-element, root-finding or ODE computation, good to the digits shown. *published "
