@@ -75,12 +75,15 @@ std::string class_name(const std::string& name) {
   return words;
 }
 
-std::string filled_in(std::string text, const std::string& name) {
-  const std::pair<std::string, std::string> marks[] = {{"@name@", name}, {"@Name@", class_name(name)}};
-  for (const auto& [mark, words] : marks)
-    for (std::size_t at = 0; (at = text.find(mark, at)) != std::string::npos; at += words.size())
-      text.replace(at, mark.size(), words);
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
   return text;
+}
+
+std::string filled_in(std::string text, const std::string& name) {
+  text = replaced(std::move(text), "@name@", name);
+  return replaced(std::move(text), "@Name@", class_name(name));
 }
 
 int write_folder(const NewOptions& options, const Catalogue& catalogue) {
@@ -130,7 +133,8 @@ int write_deck(const NewOptions& options) {
   if (fs::is_directory(to, error)) to /= options.name + ".dat";
   if (fs::exists(to, error)) throw UsageError("S807", to.string() + " exists already; it was not changed");
   OutFile out(to);
-  out.text() = read_file(from.string());
+  // The commands in the comments of a template name its own file.
+  out.text() = replaced(read_file(from.string()), from.filename().string(), to.filename().string());
   out.finish();
   answer_file(out.path());
   fmt::print("{}: a deck that runs; its first lines say what it computes and which commands to use\n",

@@ -107,6 +107,20 @@ TEST(NewDeck, CulvertIsTheBondedPipe) {
   EXPECT_EQ(out.find("hoop_force"), std::string::npos) << "rows of zeros say nothing\n" << out;
 }
 
+// The commands in its comments can be copied.
+TEST(NewDeck, CommentsNameTheFileThatWasWritten) {
+  const fs::path folder = empty_folder("template_name");
+  for (const char* name : {"culvert", "embankment", "excavation", "footing", "seepage", "slope", "triaxial"}) {
+    ASSERT_EQ(sagefe(folder, std::string("new deck ") + name + " -o wall_of_" + name + "2.dat").exit_code, 0);
+    const std::string file = std::string(name) + ".dat", written = "wall_of_" + std::string(name) + "2.dat";
+    const std::string text = read(folder / written);
+    EXPECT_EQ(text.find(file), std::string::npos) << text;
+    EXPECT_NE(text.find("sagefe " + std::string(name == std::string("slope") ? "safety " : "run ") + written),
+              std::string::npos)
+        << text;
+  }
+}
+
 // The thrust of the half ring is drawn on its outer side, though its elements run counter-clockwise.
 TEST(NewDeck, DiagramsOfLiningsAreDrawnOutwards) {
   const fs::path folder = empty_folder("template_culvert_picture");
