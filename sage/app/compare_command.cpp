@@ -13,7 +13,9 @@
 #include "sage/app/interrupt.hpp"
 #include "sage/app/large_heap.hpp"
 #include "sage/app/progress.hpp"
+#include "sage/app/report_page.hpp"
 #include "sage/app/run_deck.hpp"
+#include "sage/app/run_source.hpp"
 #include "sage/app/run_warnings.hpp"
 #include "sage/app/screen.hpp"
 #include "sage/app/umat_output.hpp"
@@ -21,7 +23,9 @@
 #include "sage/compare/comparison.hpp"
 #include "sage/compare/pair_picture.hpp"
 #include "sage/model/locate.hpp"
+#include "sage/record/data_file.hpp"
 #include "sage/record/out_file.hpp"
+#include "sage/record/result_file.hpp"
 #include "solvers/choose_solver.hpp"
 
 namespace sage::app {
@@ -50,7 +54,7 @@ struct CompareOptions {
   std::optional<std::string> solver_b, layout_b;
   std::vector<std::string> lines, pictures, fields;
   int digits = 0;
-  std::filesystem::path folder = "out";
+  std::filesystem::path folder = "out", page;  // page: empty = none is wanted
 
   bool changes_b() const { return formulation_b || element_b || geometry_b || solver_b || layout_b; }
 };
@@ -97,12 +101,14 @@ struct Place {
   std::filesystem::path folder;
   ResultFiles& results;
   const Catalogue& catalogue;
+  bool result_files;  // for the page of both
 };
 
 // A side, and what finer and finer meshes found for it, where that was asked for.
 struct FinishedSide {
   compare::Side side;
   std::optional<Convergence> convergence = {};
+  std::filesystem::path result = {};  // its result file; empty = there is none
 
   std::vector<compare::CertainValue> certain() const {
     std::vector<compare::CertainValue> values;
@@ -128,16 +134,24 @@ RunRequest converge_request(const SideOptions& options, const Place& place, cons
   return request;
 }
 
-Model build_side(const SideOptions& options, const Catalogue& catalogue) {
+// source: for the result file, where there will be one.
+Model build_side(const SideOptions& options, const Catalogue& catalogue, RunSource* source = nullptr) {
   BuildOptions build = options.input.build;
   build.solver = solver_code(catalogue, options.solver);
-  Model model = build_model(read_input(options.deck, options.input), catalogue, build);
+  std::string heads;
+  if (source != nullptr && build.heads) build.heads = keeping_heads(build.heads, heads);
+  const Deck deck = read_input(options.deck, options.input);
+  Model model = build_model(deck, catalogue, build);
   for (Report& report : model.reports) report.fields = options.fields;
+  if (source != nullptr) {
+    *source = source_of(*deck.source.text(), deck.layout, options.input.layout, build);
+    source->heads = std::move(heads);
+  }
   return model;
 }
 
-compare::Side run_model(Model model, const std::string& label, const SideOptions& options, const Place& place,
-                        const std::string& stem) {
+FinishedSide run_model(Model model, const std::string& label, const SideOptions& options, const Place& place,
+                       const std::string& stem, const RunSource& source) {
   RunSettings settings;
   settings.threads = threads_for(options.threads);
   settings.kernels = options.kernels;
@@ -150,18 +164,25 @@ compare::Side run_model(Model model, const std::string& label, const SideOptions
   request.deck = options.deck;
   request.input.strict = options.input.strict;
   RunWarnings warnings(request);
-  with_umat_output(label, [&] { side.run(place.catalogue, settings, &warnings); });
+  std::vector<Observer*> watching{&warnings};
+  std::optional<ResultOutput> result;
+  if (place.result_files)
+    watching.push_back(
+        &result.emplace(place.folder, stem, source, settings.threads, ResultFields{options.fields}));
+  with_umat_output(label, [&] { side.run(place.catalogue, settings, watching); });
   side.set_strict_failure(!free_of_warnings(request, side.record(), side.reports()));
   if (!side.error().empty())
     say_error(options.deck, side.error(), code_in(side.error()).value_or(Code("S511")));
-  return side;
+  const bool written = result && !result->files().empty();
+  return {std::move(side), {}, written ? result->files().front() : std::filesystem::path()};
 }
 
 FinishedSide run_side(const char* letter, const SideOptions& options, const Place& place,
                       const std::string& stem) {
   std::optional<Model> model;
+  RunSource source;
   try {
-    model = build_side(options, place.catalogue);
+    model = build_side(options, place.catalogue, place.result_files ? &source : nullptr);
   } catch (const InputError& error) {
     print_diagnostics(error.diagnostics());
     return {{label_of(letter, options, nullptr), error.what()}};
@@ -171,7 +192,7 @@ FinishedSide run_side(const char* letter, const SideOptions& options, const Plac
   const std::string label = label_of(letter, options, &*model);
   if (options.input.strict && model->diagnostics.warnings() > 0)
     return {{label, "warnings count as errors (--strict)"}};
-  return {run_model(std::move(*model), label, options, place, stem)};
+  return run_model(std::move(*model), label, options, place, stem, source);
 }
 
 // Finer and finer meshes; the best of them is the side.
@@ -340,6 +361,8 @@ bool go_together(const CompareOptions& o, std::vector<compare::Line>& lines) {
     return wrong("one deck needs --both or an option that ends in -b", "S903");
   if (o.both && o.geometry_b)
     return wrong("--both sets the geometries itself, --geometry-b does not go with it", "S905");
+  if (!o.page.empty() && o.converge.asked())
+    return wrong("--report shows the runs of the meshes of both decks, --converge does not go with it", "S905");
   if (o.decks.size() == 1) require_file(o.decks.front(), "compare of one deck in two ways");
   try {
     for (const std::string& text : o.lines) lines.push_back(compare::line_from_text(text));
@@ -347,6 +370,20 @@ bool go_together(const CompareOptions& o, std::vector<compare::Line>& lines) {
     return wrong(error.what(), "S904");
   }
   return true;
+}
+
+// The page of the sides that have a result file, and these files.  Empty where there are none.
+std::vector<std::filesystem::path> write_page(const CompareOptions& o, const FinishedSide& a,
+                                              const FinishedSide& b, const Catalogue& catalogue) {
+  std::vector<std::filesystem::path> files;
+  for (const FinishedSide* one : {&a, &b})
+    if (!one->result.empty()) files.push_back(one->result);
+  if (files.empty() || interrupted()) return files;
+  std::filesystem::path page = o.page;
+  if (page.extension() != ".html") page += ".html";
+  write_report_page(files, page, {}, catalogue);
+  files.push_back(page);
+  return files;
 }
 
 int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
@@ -359,9 +396,10 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
   const std::string name_a = case_name(options[0].deck), name_b = case_name(options[1].deck);
   const std::string stem = name_a == name_b ? name_a : name_a + "_" + name_b;
   for (const SideOptions& side : options) keep_input(side.deck);
+  if (!o.page.empty()) expect_data_module();  // before any file is begun
   const InterruptWatch watch;  // before the first file, so that none stays behind under a temporary name
   ResultFiles results(o.folder, stem + ".compare", {options[0].deck, 0, "comparison"});
-  const Place place{o.folder, results, catalogue};
+  const Place place{o.folder, results, catalogue, !o.page.empty()};
   keep_heap_in_large_pages();
   ConvergeOptions converge = o.converge;
   converge.screen = stderr;  // the answer comes first on the other one
@@ -384,6 +422,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
     files.push_back(o.folder / fmt::format("{}.compare_{}.svg", stem, name));
     write_file(files.back(), compare::pair_svg(a, b, name));
   }
+  const std::vector<std::filesystem::path> page = write_page(o, side_a, side_b, catalogue);
   say_left(o.decks.front(), results.close());
   const ProgressPause pause;
   fmt::print("{}", wrapped(compare::to_text(comparison, a, b), kHelpColumns));
@@ -392,6 +431,7 @@ int compare_decks(const CompareOptions& asked, const Catalogue& catalogue) {
     if (one->side.has_model())
       for (const std::filesystem::path& file : one->side.reports().files()) files.push_back(file);
   }
+  files.insert(files.end(), page.begin(), page.end());
   if (Json* json = answer()) {
     *json = {{"a", side_json(side_a)}, {"b", side_json(side_b)}};
     (*json)["comparison"] = comparison_json(comparison);
@@ -435,6 +475,10 @@ Command compare_command(CLI::App& parser, const Catalogue& catalogue) {
   add_digits_option(parser, o->digits);
   add_field_options(parser, o->pictures, o->fields, "SVG of both sides on one scale of colours",
                     "lines and reports of points");
+  parser.add_option(
+      "--report", o->page,
+      "write this file, a page of both runs for every browser (sagefe report), and the result files "
+      "STEM.a.h5 and STEM.b.h5 that it shows");
   parser.add_option("-o,--output", o->folder, "folder for results (default: out)");
   return [o, &catalogue] { return compare_decks(*o, catalogue); };
 }

@@ -88,6 +88,7 @@ RunSource source_of(const std::string& deck, const std::string& layout, const st
 
 Model model_of(const RunSource& source, const std::string& deck_name, const Catalogue& catalogue) {
   BuildOptions build = build_options_of(source.options, catalogue);
+  build.points_outside = true;  // the run accepted its points
   if (!source.heads.empty()) build.heads = kept_heads(source.heads);
   if (source.layout == kModelFile)
     return build_model(read_model_file_text(source.deck, deck_name), catalogue, build);

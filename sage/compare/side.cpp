@@ -103,10 +103,10 @@ Side::Side(std::string label, std::unique_ptr<Model> model, std::unique_ptr<Repo
   read_result();
 }
 
-void Side::run(const Catalogue& catalogue, const RunSettings& settings, Observer* watch) {
+void Side::run(const Catalogue& catalogue, const RunSettings& settings, std::span<Observer* const> watching) {
   const auto start = std::chrono::steady_clock::now();
   std::vector<Observer*> observers{&record_, reports_.get(), &result_};
-  if (watch != nullptr) observers.push_back(watch);
+  observers.insert(observers.end(), watching.begin(), watching.end());
   try {
     const RunResult result = sage::run(*model_, catalogue, settings, observers);
     if (result.status != RunStatus::completed) error_ = result.reason;

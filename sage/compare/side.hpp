@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <span>
 
 #include "sage/analysis/run.hpp"
 #include "sage/record/report.hpp"
@@ -76,8 +77,8 @@ class Side {
   Side(std::string label, std::string error) : label_(std::move(label)), error_(std::move(error)) {}
 
   // Runs the model; what is thrown ends in error().
-  // watch: one more observer, or none.
-  void run(const Catalogue& catalogue, const RunSettings& settings, Observer* watch = nullptr);
+  // watching: more observers.
+  void run(const Catalogue& catalogue, const RunSettings& settings, std::span<Observer* const> watching = {});
 
   const std::string& label() const { return label_; }
   // Empty when the run is complete; otherwise why not.  The last state in equilibrium may still be there.

@@ -207,6 +207,26 @@ TEST(CommandLine, AComponentStandsForItsField) {
   EXPECT_EQ(points, read(folder / "whole" / "deck.points.csv"));
 }
 
+#ifdef SAGE_HAVE_HDF5
+// The page has both runs under names of their own, and the result files stay.
+TEST(CommandLine, CompareWritesOnePageOfBothRuns) {
+  const fs::path folder = empty_folder("compare_page");
+  write(folder / "block.dat", block_deck().text());
+  const Finished run = sagefe(folder, "compare block.dat --both --report pair -o out");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const char* file : {"pair.html", "out/block.a.h5", "out/block.b.h5"}) {
+    EXPECT_TRUE(fs::exists(folder / file)) << file;
+    EXPECT_NE(run.out.find(file), std::string::npos) << run.out;
+  }
+  // The same bytes as sagefe report makes of these files.
+  ASSERT_EQ(sagefe(folder, "report out/block.a.h5 out/block.b.h5 --name same -o .").exit_code, 0);
+  EXPECT_EQ(read(folder / "pair.html"), read(folder / "same.html"));
+  const Finished both = sagefe(folder, "compare block.dat --both --converge 1e-2 --report pair.html -o out3");
+  EXPECT_EQ(both.exit_code, 1);
+  expect_words(both.err, {"--report", "--converge", "S905"});
+}
+#endif
+
 // /dev/full accepts an open and refuses every write, as a full disk does.
 TEST(CommandLine, StandardOutputThatCantBeWrittenIsExitCode4) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
