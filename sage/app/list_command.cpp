@@ -12,6 +12,8 @@
 #include "sage/app/answer.hpp"
 #include "sage/app/commands.hpp"
 #include "sage/app/exit_codes.hpp"
+#include "sage/messages/error.hpp"
+#include "sage/model/locking.hpp"
 
 namespace sage::app {
 
@@ -20,12 +22,25 @@ namespace {
 // Of the fields, by the place where they have values.
 constexpr const char* kFieldPlaces[] = {"nodes", "integration points", "elements", "increments"};
 
+// Of a formulation that some laws get though the deck names none, or another.
+std::string laws_that_get(const ElementEntry& entry, const Formulation& formulation) {
+  if (formulation.yields) return " (every law that is not linear gets it)";
+  try {
+    const Formulation& dilating = default_formulation(entry, Geometry::plane_strain, true);
+    const bool other = dilating.code != entry.formulations.front().code;
+    return other && formulation.code == dilating.code ? " (code 0 for a law that dilates)" : "";
+  } catch (const ParameterError&) {  // an element of axisymmetry alone
+    return "";
+  }
+}
+
 void list_elements(const Catalogue& catalogue) {
-  fmt::print("code  element, its formulations (code 0 on a group card = the first)\n");
+  fmt::print(
+      "code  element, its formulations (code 0 on a group card = the first, unless a line says otherwise)\n");
   for (const auto& [code, entry] : catalogue.elements.entries()) {
     fmt::print("{:4}  {}: {}\n", code, entry.name, entry.summary);
     for (const Formulation& f : entry.formulations)
-      fmt::print("      {:4}  {}: {}\n", f.code, f.name, f.summary);
+      fmt::print("      {:4}  {}: {}{}\n", f.code, f.name, f.summary, laws_that_get(entry, f));
   }
 }
 

@@ -21,18 +21,6 @@ int for_law(const ElementEntry& entry, const Formulation& named, const Material&
   return linear || yielding == entry.formulations.end() ? named.code : yielding->code;
 }
 
-// Where the deck leaves the formulation open: of elements whose own one resists a flow that dilates, for ground that
-// dilates, the first that does not.
-int left_open(const ElementEntry& entry, Geometry geometry, const Material& material) {
-  const auto follows = [&](const Formulation& f) {
-    return !resists_dilation(entry, entry.make(geometry, f.code)->traits());
-  };
-  const Formulation& own = entry.formulations.front();
-  if (!entry.solid() || dilation_of(material).none() || follows(own)) return own.code;
-  const auto found = std::ranges::find_if(entry.formulations, follows);
-  return found == entry.formulations.end() ? own.code : found->code;
-}
-
 std::string formulations_of(const ElementEntry& entry) {
   std::string text;
   for (const Formulation& f : entry.formulations)
@@ -491,7 +479,7 @@ void read_formulation(Builder& b, const CardView& card, const ElementEntry& entr
   const Material* material = material_known ? &b.model.materials[group.material] : nullptr;
   int formulation = chosen_formulation(b, entry, card.integer("formulation"), replaced);
   if (formulation == 0 && material != nullptr && b.options.dilates)
-    formulation = left_open(entry, b.model.geometry, *material);
+    formulation = default_formulation(entry, b.model.geometry, !dilation_of(*material).none()).code;
   const auto found =
       std::find_if(entry.formulations.begin(), entry.formulations.end(),
                    [&](const Formulation& f) { return f.code == formulation || formulation == 0; });

@@ -16,6 +16,16 @@ bool resists_dilation(const ElementEntry& entry, const ElementTraits& traits) {
   return entry.solid() && entry.square() && entry.only_corners() && traits.own_doubles == 0;
 }
 
+const Formulation& default_formulation(const ElementEntry& entry, Geometry geometry, bool dilates) {
+  const auto follows = [&](const Formulation& f) {
+    return !resists_dilation(entry, entry.make(geometry, f.code)->traits());
+  };
+  const Formulation& own = entry.formulations.front();
+  if (!dilates || !entry.solid() || follows(own)) return own;
+  const auto found = std::ranges::find_if(entry.formulations, follows);
+  return found == entry.formulations.end() ? own : *found;
+}
+
 Dilation dilation_of(const Material& material) {
   if (material.entry == nullptr || !material.entry->for_solids()) return {};
   const auto& rows = material.entry->parameters;

@@ -9,6 +9,9 @@ namespace sage {
 bool nearly_incompressible(const Model& model, const Group& group);
 // Four-node elements resist a flow that dilates, unless they have a strain of their own, which they solve for.
 bool resists_dilation(const ElementEntry& entry, const ElementTraits& traits);
+// The formulation that a group gets where its deck leaves it open: the first of the entry, or for a law that dilates
+// the first that such a flow is possible with.
+const Formulation& default_formulation(const ElementEntry& entry, Geometry geometry, bool dilates);
 // By how much the ground of a material grows while it flows: its largest dilation angle in degrees, or the share of the
 // associated flow for laws without that angle.  Both 0: it keeps its volume.
 struct Dilation {

@@ -227,6 +227,30 @@ TEST(CommandLine, CompareWritesOnePageOfBothRuns) {
 }
 #endif
 
+// The same default that build_model gives: enhanced for quad4 with a law that dilates.
+TEST(CommandLine, ListOfElementsNamesTheDefaultOfLawsThatDilate) {
+  const std::string list = sagefe(empty_folder("list_elements"), "list elements").out;
+  EXPECT_EQ(list.find("code 0 on a group card = the first)"), std::string::npos) << list;
+  std::istringstream lines(list);
+  std::string element;
+  int dilating = 0, yielding = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (const std::size_t colon = line.find(": "); line.rfind("      ", 0) != 0 && colon != std::string::npos)
+      element = line.substr(6, colon - 6);
+    if (line.find("(code 0 for a law that dilates)") != std::string::npos) {
+      EXPECT_EQ(element, "quad4");
+      EXPECT_NE(line.find(" enhanced: "), std::string::npos) << line;
+      ++dilating;
+    }
+    if (line.find("(every law that is not linear gets it)") != std::string::npos) {
+      EXPECT_EQ(element.rfind("beam3", 0), 0u) << element;
+      ++yielding;
+    }
+  }
+  EXPECT_EQ(dilating, 1) << list;
+  EXPECT_GE(yielding, 1) << list;
+}
+
 // /dev/full accepts an open and refuses every write, as a full disk does.
 TEST(CommandLine, StandardOutputThatCantBeWrittenIsExitCode4) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
