@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "sage/analysis/extent.hpp"
 #include "sage/record/number.hpp"
+#include "sage/record/without_rounding.hpp"
 
 namespace sage {
 
@@ -13,6 +16,26 @@ namespace {
 std::string quantity_unit(const Model& model, std::size_t quantity) {
   return unit_text(end_field(quantity).dimension, model.units);
 }
+
+// The largest force of a table, beside which what rounding leaves is shown as 0.  A moment counts as a force at the end
+// of a lever as long as the mesh.
+class ForceScale {
+ public:
+  explicit ForceScale(const Model& model) : lever_(Extent(model).size()) {}
+  void add(std::size_t quantity, double value) {
+    largest_ = std::max(largest_, std::abs(value) / lever(quantity));
+  }
+  double shown(std::size_t quantity, double value) const {
+    return without_rounding(value, largest_ * lever(quantity));
+  }
+
+ private:
+  double lever(std::size_t quantity) const {
+    return end_field(quantity).dimension == Dimension::moment ? lever_ : 1.0;
+  }
+
+  double lever_, largest_ = 0.0;
+};
 
 void cell(std::string& text, double value, const std::string& set, long stage, int digits) {
   append_optional_cell(text, value, digits);
@@ -52,13 +75,18 @@ std::string factored_text(const Model& model, const std::vector<FactoredEnds>& s
       "section forces under {} set(s) of factors, times the factor on effects\n{:>22}{:>16}{:>12}  "
       "{:<12}{:>5}{:>12}  {:<12}{:>5}\n",
       sets.size(), "group", "quantity", "least", "set", "stage", "largest", "set", "stage");
+  ForceScale scale(model);
+  for (const FactoredRange& range : ranges)
+    for (const FactoredExtreme& one : {range.least, range.largest}) scale.add(range.quantity, one.value);
   for (const FactoredRange& range : ranges) {
+    const double least = scale.shown(range.quantity, range.least.value);
+    const double largest = scale.shown(range.quantity, range.largest.value);
+    if (least == 0.0 && largest == 0.0) continue;
     const Group& group = model.groups[range.group];
     text += fmt::format("{:>22.22}{:>16}{:>12.5g}  {:<12.12}{:>5}{:>12.5g}  {:<12.12}{:>5}\n",
                         group.name.empty() ? std::to_string(group.number) : group.name,
-                        kEndQuantities[range.quantity], range.least.value, sets[range.least.set].set.name,
-                        range.least.stage, range.largest.value, sets[range.largest.set].set.name,
-                        range.largest.stage);
+                        kEndQuantities[range.quantity], least, sets[range.least.set].set.name,
+                        range.least.stage, largest, sets[range.largest.set].set.name, range.largest.stage);
   }
   return text;
 }

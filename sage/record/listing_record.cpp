@@ -8,6 +8,7 @@
 #include "sage/record/listing_parts.hpp"
 #include "sage/record/number.hpp"
 #include "sage/record/values.hpp"
+#include "sage/record/without_rounding.hpp"
 
 namespace sage::listing {
 
@@ -183,11 +184,6 @@ void increment(std::string& text, const StepReport& report) {
   append_integer(text, report.cuts, 6);
   for (PointStatus s : kAtStrength) append_integer(text, report.points[static_cast<std::size_t>(s)], 9);
   text += report.converged ? "\n" : "   NOT CONVERGED\n";
-}
-
-// What is left of sums that cancel is rounding: shown as 0 below 1e-12 of them.
-double without_rounding(double value, double scale) {
-  return std::abs(value) < 1e-12 * scale ? 0.0 : value;
 }
 
 // Models of water alone have no forces.

@@ -7,8 +7,8 @@
 #include <iterator>
 
 #include "sage/analysis/stage_warnings.hpp"
-#include "sage/math/rounding.hpp"
 #include "sage/record/values.hpp"
+#include "sage/record/without_rounding.hpp"
 
 namespace sage {
 
@@ -67,12 +67,6 @@ std::vector<Row> chosen(const std::vector<Row>& rows) {
   std::vector<Row> result;
   for (std::size_t i : take) result.push_back(rows[i]);
   return result;
-}
-
-// A number that is smaller than what rounding leaves of the largest one in its table says nothing.
-double without_rounding(double value, double largest) {
-  constexpr double kRounding = rounding::kResult;
-  return std::abs(value) < kRounding * largest ? 0.0 : value + 0.0;
 }
 
 template <class Numbers>

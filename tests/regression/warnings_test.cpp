@@ -269,5 +269,38 @@ TEST(ElementOption, ConvertsEightNodeElementsOrIsAnError) {
   }
 }
 
+void expect_all_of(const std::string& text, std::initializer_list<const char*> words) {
+  for (const char* word : words)
+    EXPECT_NE(text.find(word), std::string::npos) << "no " << word << " in:\n" << text;
+}
+
+// A cantilever along (cos 30, sin 30) with forces of 10 across it at its end: no axial force, and M = 0 at the end, where
+// sums of products leave rounding.
+TEST(Factors, RoundingIsZeroInTheirTable) {
+  const fs::path folder = empty_folder("factors_table");
+  const std::string load = "load = [{first = 3, x_force = 5.0, y_force = -8.660254037844386}]";
+  write(folder / "cantilever.sage.toml",
+        "geometry = \"plane strain\"\n"
+        "units = {length = \"m\", force = \"kN\", stress = \"kPa\"}\n"
+        "node = [{x = 0.0, y = 0.0}, {x = 1.7320508075688772, y = 1.0}, {x = 3.4641016151377544, y = 2.0}]\n"
+        "element = [{group = 1, nodes = [1, 2]}, {group = 1, nodes = [2, 3]}]\n"
+        "fixity = [{first = 1, x = \"fixed\", y = \"fixed\"}, {first = 1, x = \"fixed\", unknown = "
+        "\"rotation\"}]\n"
+        "material = [{law = \"section_elastic\", axial_stiffness = 1e6, bending_stiffness = 1e4}]\n"
+        "group = [{name = \"slab\", element = \"beam2\", material = 1}]\n"
+        "stage = [{" +
+            load + "}, {" + load + "}]\n");
+  const Finished run = sagefe(folder, "run cantilever.sage.toml --factors DA1-1 --variable 2 -o out");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::size_t at = run.out.find("section forces under 1 set(s) of factors");
+  ASSERT_NE(at, std::string::npos) << run.out;
+  const std::string table = run.out.substr(at);
+  EXPECT_EQ(table.find("e-"), std::string::npos) << table;
+  EXPECT_EQ(table.find("axial_force"), std::string::npos) << table;
+  // 1.35 * 10 + 1.5 * 10 = 28.5 across the beam of length 4.
+  expect_all_of(table, {"slab     shear_force       -28.5  DA1-1           2       -13.5  DA1-1           1",
+                        "slab  bending_moment        -114  DA1-1           2           0  DA1-1           1"});
+}
+
 }  // namespace
 }  // namespace sage::test
