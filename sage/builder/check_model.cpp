@@ -282,6 +282,45 @@ std::string turning_words() {
   return " (the beams there have no rotation support: a fixity of the unknown rotation clamps a node)";
 }
 
+// Interfaces that would connect a part, but are not active: those that have a node of it, and those on the far side of an
+// inactive structure between them.
+std::vector<const Group*> inactive_joints(const Model& model, const Activity& activity,
+                                          const std::vector<int>& part, int p) {
+  std::vector<char> reached(part.size(), 0);
+  for (std::size_t node = 0; node < part.size(); ++node) reached[node] = part[node] == p ? 1 : 0;
+  std::set<std::size_t> found;
+  for (int round = 0; round < 2; ++round) {
+    const std::vector<char> before = reached;
+    for (std::size_t g = 0; g < model.groups.size(); ++g) {
+      const Group& group = model.groups[g];
+      const auto at = [&](int node) { return before[node] != 0; };
+      if (activity.group[g] != 0 || !group.interface() || std::ranges::none_of(group.nodes, at)) continue;
+      found.insert(g);
+      for (const int node : group.nodes)
+        if (part[node] < 0) reached[node] = 1;
+    }
+  }
+  std::vector<const Group*> joints;
+  for (const std::size_t g : found) joints.push_back(&model.groups[g]);
+  return joints;
+}
+
+std::string joint_words(const std::vector<const Group*>& joints) {
+  if (joints.empty()) return "; add fixities";
+  constexpr std::size_t kShown = 6;
+  std::string list;
+  for (std::size_t i = 0; i < std::min(kShown, joints.size()); ++i)
+    list += (i == 0 ? " " : ", ") + std::to_string(joints[i]->number) +
+            (joints[i]->name.empty() ? "" : " (" + joints[i]->name + ")");
+  if (joints.size() > kShown) list += ", ...";
+  return joints.size() == 1 ? "; the interface group" + list +
+                                  " beside it is not active in this stage: activate it with what it connects, "
+                                  "or add fixities"
+                            : "; the interface groups" + list +
+                                  " beside it are not active in this stage: activate them with what they "
+                                  "connect, or add fixities";
+}
+
 // Rigid motions left free, by connected part.
 void check_supports_of(Builder& b, const Stage& stage, const Activity& activity) {
   constexpr std::size_t kShown = 5;
@@ -292,7 +331,8 @@ void check_supports_of(Builder& b, const Stage& stage, const Activity& activity)
     b.error("S323", stage.where,
             "stage " + std::to_string(stage.number) + ": nothing holds the " +
                 (several ? part_name(b.model, part, loose[i].part) : "mesh") + " against " + loose[i].motion +
-                "; add fixities" + (turns(b.model, part, loose[i].part) ? turning_words() : std::string()));
+                joint_words(inactive_joints(b.model, activity, part, loose[i].part)) +
+                (turns(b.model, part, loose[i].part) ? turning_words() : std::string()));
 }
 
 void check_supports(Builder& b) {

@@ -624,10 +624,11 @@ constexpr MessageEntry kMessages[] = {
      "Correct which groups this stage or an earlier one activates and removes."},
     {"S323", "nothing holds the mesh",
      "A part of the body can move without strain, either as a whole along x or y, or by rotation. The "
-     "stiffness matrix is then singular. Parts that touch without common nodes or an interface are separate "
-     "bodies.",
+     "stiffness matrix is then singular. Parts that touch without common nodes or an active interface are "
+     "separate bodies. The message names interface groups beside the part that are not active in the stage.",
      "Add at least two fixities in one direction and one in the other. In axisymmetry one along the axis is "
-     "enough. Join parts by common nodes or interfaces."},
+     "enough. Join parts by common nodes or interfaces. Activate interfaces in the same stage as the structure "
+     "or the ground that they connect."},
     {"S324", "the solver is for symmetric matrices only",
      "Non-associated plastic flow (dilation differs from friction) and interfaces with friction have an "
      "unsymmetric tangent. A symmetric solver would converge slowly or not at all.",

@@ -274,6 +274,47 @@ void expect_all_of(const std::string& text, std::initializer_list<const char*> w
     EXPECT_NE(text.find(word), std::string::npos) << "no " << word << " in:\n" << text;
 }
 
+// A block on a raft with joints above and below it.  The raft has the group 2, the joints have 3 and 4.
+std::string raft_between_joints(const std::string& stages) {
+  return "geometry = \"plane strain\"\n"
+         "units = {length = \"m\", force = \"kN\", stress = \"kPa\"}\n"
+         "node = [{x = 0.0, y = -1.0}, {x = 1.0, y = -1.0}, {x = 0.0, y = 0.0}, {x = 1.0, y = 0.0}, {x = 0.0, "
+         "y = 0.0}, "
+         "{x = 1.0, y = 0.0}, {x = 0.0, y = 0.0}, {x = 1.0, y = 0.0}, {x = 0.0, y = 1.0}, {x = 1.0, y = 1.0}]\n"
+         "element = [{group = 1, nodes = [1, 2, 4, 3]}, {group = 2, nodes = [5, 6]}, {group = 3, nodes = [3, "
+         "4, 6, 5]}, "
+         "{group = 4, nodes = [5, 6, 8, 7]}, {group = 1, nodes = [7, 8, 10, 9]}]\n"
+         "fixity = [{first = 1, last = 2, x = \"fixed\", y = \"fixed\"}]\n"
+         "material = [{name = \"soil\", law = \"linear_elastic\", youngs_modulus = 1e3, poissons_ratio = 0.3}, "
+         "{name = \"beam\", law = \"section_elastic\", axial_stiffness = 1e6, bending_stiffness = 1e3}, "
+         "{name = \"joint\", law = \"goodman\", normal_stiffness = 1e4, shear_stiffness = 1e4, tension = 1}]\n"
+         "group = [{name = \"ground\", element = \"quad4\", material = \"soil\"}, "
+         "{name = \"raft\", element = \"beam2\", material = \"beam\"}, "
+         "{name = \"below\", element = \"interface4\", material = \"joint\"}, "
+         "{name = \"above\", element = \"interface4\", material = \"joint\"}]\n" +
+         stages;
+}
+
+// Joints below the raft touch the loose block only by way of the raft, which is not active either.
+TEST(Supports, InactiveJointsBesideALoosePartAreNamed) {
+  const fs::path folder = empty_folder("inactive_joints");
+  const std::string load = "load = [{first = 9, y_force = -1.0}]";
+  const auto check = [&](const std::string& first, const std::string& second) {
+    const std::string stages = "stage = [{" + first + load + "}, {" + second + load + "}]\n";
+    write(folder / "raft.sage.toml", raft_between_joints(stages));
+    return sagefe(folder, "check raft.sage.toml");
+  };
+  const Finished both = check("", "birth = [\"raft\", \"below\", \"above\"], ");
+  EXPECT_EQ(both.exit_code, 2);
+  expect_all_of(both.err,
+                {"stage 1: nothing holds the part that contains node 7",
+                 "the interface groups 3 (below), 4 (above) beside it are not active in this stage", "S323"});
+  const Finished one = check("birth = [\"raft\"], ", "birth = [\"below\"], ");
+  expect_all_of(one.err, {"the interface group 3 (below) beside it is not active in this stage", "S323"});
+  const Finished together = check("birth = [\"raft\", \"below\"], ", "");
+  EXPECT_EQ(together.exit_code, 0) << together.err;
+}
+
 // A cantilever along (cos 30, sin 30) with forces of 10 across it at its end: no axial force, and M = 0 at the end, where
 // sums of products leave rounding.
 TEST(Factors, RoundingIsZeroInTheirTable) {
