@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -378,6 +379,116 @@ void check_turning(Builder& b, const Stage& stage, const Activity& activity, std
   }
 }
 
+// A straight side of the ground, x or y = const, at the edge of the mesh, all of whose nodes are held across it.
+struct HeldSide {
+  int normal = 0;  // 0: x = const
+  double at = 0.0;
+};
+
+std::vector<HeldSide> held_sides(const Model& model, const Activity& activity, double tolerance) {
+  std::vector<char> ground(static_cast<std::size_t>(model.mesh.nodes()), 0);
+  for (std::size_t g = 0; g < model.groups.size(); ++g)
+    if (activity.group[g] != 0 && model.groups[g].solid())
+      for (const int node : model.groups[g].nodes) ground[node] = 1;
+  std::vector<HeldSide> sides;
+  for (int normal = 0; normal < 2; ++normal)
+    for (const double sign : {-1.0, 1.0}) {
+      const auto place = [&](int node) { return sign * model.mesh.x(normal, node); };
+      double edge = -std::numeric_limits<double>::infinity();
+      for (int node = 0; node < model.mesh.nodes(); ++node)
+        if (ground[node] != 0) edge = std::max(edge, place(node));
+      bool held = std::isfinite(edge);
+      double least = std::numeric_limits<double>::infinity(), most = -least;
+      for (int node = 0; held && node < model.mesh.nodes(); ++node) {
+        if (ground[node] == 0 || place(node) < edge - tolerance) continue;
+        held = activity.holds(node, normal);
+        least = std::min(least, model.mesh.x(1 - normal, node));
+        most = std::max(most, model.mesh.x(1 - normal, node));
+      }
+      if (held && most > least + tolerance) sides.push_back({normal, sign * edge});
+    }
+  return sides;
+}
+
+// Ends of beams that no other element of a beam shares, each with its element: node, group, element.
+struct FreeEnd {
+  std::size_t group = 0;
+  int element = 0, corner = 0, count = 0;
+};
+
+std::map<int, FreeEnd> free_ends(const Model& model, const Activity& activity) {
+  std::map<int, FreeEnd> ends;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const Group& group = model.groups[g];
+    const bool beam =
+        group.structure() && group.entry->corners == 2 &&
+        std::ranges::any_of(group.entry->unknowns, [](const ElementUnknown& one) { return one.field.turns; });
+    for (int e = 0; beam && activity.group[g] != 0 && e < group.elements(); ++e)
+      for (int corner = 0; corner < 2; ++corner) {
+        FreeEnd& end = ends.try_emplace(group.nodes_of(e)[corner], FreeEnd{g, e, corner, 0}).first->second;
+        ++end.count;
+      }
+  }
+  std::erase_if(ends, [](const auto& one) { return one.second.count > 1; });
+  return ends;
+}
+
+// Whether the rotation of an end is the one that beams share, and free.  A hinge has a rotation of its own.
+bool turns_freely(const Model& model, const Activity& activity, int node, const FreeEnd& end) {
+  for (const ElementUnknown& unknown : model.groups[end.group].entry->unknowns) {
+    if (!unknown.field.turns || unknown.field.name != "rotation") continue;
+    if (!unknown.nodes.empty() && std::ranges::find(unknown.nodes, end.corner) == unknown.nodes.end()) continue;
+    for (std::size_t field = 1; field < model.unknowns.size(); ++field)
+      if (model.unknowns[field].name == unknown.field.name) {
+        const int dof = activity.dof_map.of(node, static_cast<int>(field));
+        return dof >= 0 && activity.held[dof] == 0;
+      }
+  }
+  return false;
+}
+
+// On a line of symmetry the mirror image of a beam that crosses it keeps its end from turning.  Weight along the normal of
+// a side shows that it is none.
+void check_symmetric_ends(Builder& b, const Stage& stage, const Activity& activity, std::set<int>& reported) {
+  const Model& model = b.model;
+  const double size = (model.mesh.x.rowwise().maxCoeff() - model.mesh.x.rowwise().minCoeff()).maxCoeff();
+  const double tolerance = 1e-9 * size;
+  const std::map<int, FreeEnd> ends = free_ends(model, activity);
+  if (ends.empty()) return;
+  for (const HeldSide& side : held_sides(model, activity, tolerance)) {
+    const auto along = static_cast<Eigen::Index>(side.normal);
+    const bool weight =
+        std::ranges::any_of(model.stages, [&](const Stage& one) { return one.gravity[along] != 0.0; });
+    const bool axis = model.geometry == Geometry::axisymmetric && side.normal == 0;
+    if (weight || axis) continue;
+    std::string nodes;
+    int count = 0;
+    const FreeEnd* first = nullptr;
+    for (const auto& [node, end] : ends) {
+      const int other = model.groups[end.group].nodes_of(end.element)[1 - end.corner];
+      const Vector2 axis_of_beam = model.mesh.x.col(other) - model.mesh.x.col(node);
+      const bool crosses = std::abs(axis_of_beam[along]) > std::abs(axis_of_beam[1 - along]);
+      const bool slides = activity.holds(node, side.normal) && !activity.holds(node, 1 - side.normal);
+      if (std::abs(model.mesh.x(along, node) - side.at) > tolerance || !crosses || !slides ||
+          !turns_freely(model, activity, node, end) || !reported.insert(node).second)
+        continue;
+      nodes += (count++ == 0 ? "" : ", ") + node_number(model, node);
+      if (first == nullptr) first = &end;
+    }
+    if (first == nullptr) continue;
+    const std::string name = side.normal == 0 ? "x" : "y";
+    b.warning(
+        "S372", stage.where,
+        "stage " + std::to_string(stage.number) + ": group " +
+            std::to_string(model.groups[first->group].number) + " has a beam that ends at node" +
+            (count > 1 ? "s " : " ") + nodes + " of the side " + name + " = " + rounded_text(side.at) +
+            ", where displacements along " + name +
+            " are held but the rotation is free: on a line of symmetry the mirror image of the beam "
+            "prevents the rotation; fix the unknown rotation there, or end the beam with a hinged element "
+            "if a hinge is meant");
+  }
+}
+
 // Unknowns with which an end parts from its node: a node has one of each, along the line of one element.
 void check_releases(Builder& b) {
   const Model& model = b.model;
@@ -538,6 +649,7 @@ void check_held_structures(Builder& b) {
   if (std::ranges::none_of(b.model.groups, [](const Group& group) { return group.structure(); })) return;
   Activity activity(b.model);
   std::set<std::size_t> held, turning;
+  std::set<int> ends;
   for (const Stage& stage : b.model.stages) {
     activity.enter(stage);
     const bool changed = !stage.births.empty() || !stage.deaths.empty() || !stage.fixities.empty() ||
@@ -545,6 +657,7 @@ void check_held_structures(Builder& b) {
     if (!changed && &stage != &b.model.stages.front()) continue;
     check_holds(b, stage, activity, held);
     if (b.model.geometry == Geometry::plane_strain) check_turning(b, stage, activity, turning);
+    check_symmetric_ends(b, stage, activity, ends);
   }
 }
 

@@ -842,6 +842,16 @@ constexpr MessageEntry kMessages[] = {
      "If the edge is a part of a rigid cap, tie at least three nodes of the cap. If it leads across a body "
      "whose sides repeat, use at least two elements between these sides."},
 
+    {"S372", "a beam can turn on a line of symmetry",
+     "A beam ends on a straight side of the model, at an angle of more than 45 degrees to it. All nodes of "
+     "this "
+     "side are held across it, and the end of the beam can move along it and turn. If the side is a line of "
+     "symmetry, the end cannot turn, because the mirror image of the beam continues it. With a free rotation "
+     "the beam has a hinge there, and no bending moment.",
+     "Fix the unknown rotation at the node (docs/manual/structures.md). If a hinge is meant, end the beam with "
+     "a "
+     "hinged element."},
+
     // S4: refining, grading and mid-side nodes.
     {"S401", "elements of different degree meet",
      "Two elements share an edge. One of them has a node within this edge, and the other does not. The mesh "

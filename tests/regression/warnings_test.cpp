@@ -315,6 +315,51 @@ TEST(Supports, InactiveJointsBesideALoosePartAreNamed) {
   EXPECT_EQ(together.exit_code, 0) << together.err;
 }
 
+// The right half of a slab on ground, which ends at node 3 on the side x = 0.  element: of the slab; ends: its nodes.
+std::string half_slab(const std::string& element, const std::string& ends, const std::string& fixities = "",
+                      const std::string& stage = "load = [{first = 4, y_force = -1.0}]") {
+  return "geometry = \"plane strain\"\n"
+         "units = {length = \"m\", force = \"kN\", stress = \"kPa\"}\n"
+         "node = [{x = 0.0, y = 0.0}, {x = 1.0, y = 0.0}, {x = 0.0, y = 1.0}, {x = 1.0, y = 1.0}, {x = 2.0, y "
+         "= 0.0}, "
+         "{x = 2.0, y = 1.0}]\n"
+         "element = [{group = 1, nodes = [1, 2, 4, 3]}, {group = 1, nodes = [2, 5, 6, 4]}, {group = 2, nodes "
+         "= " +
+         ends +
+         "}]\n"
+         "fixity = [{first = 1, x = \"fixed\", y = \"fixed\"}, {first = 2, last = 5, step = 3, y = \"fixed\"}, "
+         "{first = 3, x = \"fixed\"}" +
+         fixities +
+         "]\n"
+         "material = [{name = \"soil\", law = \"linear_elastic\", unit_weight = 20, youngs_modulus = 1e3, "
+         "poissons_ratio = 0.3}, "
+         "{name = \"beam\", law = \"section_elastic\", axial_stiffness = 1e6, bending_stiffness = 1e3}]\n"
+         "group = [{element = \"quad4\", material = \"soil\"}, {element = \"" +
+         element + "\", material = \"beam\"}]\nstage = [{" + stage + "}]\n";
+}
+
+TEST(Supports, BeamsThatCanTurnOnALineOfSymmetryAreWarnedOf) {
+  const fs::path folder = empty_folder("turning_ends");
+  const auto warnings = [&](const std::string& model) {
+    write(folder / "slab.sage.toml", model);
+    const Finished check = sagefe(folder, "check slab.sage.toml");
+    EXPECT_EQ(check.exit_code, 0) << check.err;
+    return check.err;
+  };
+  const auto warned = [&](const std::string& model) {
+    return warnings(model).find("S372") != std::string::npos;
+  };
+  expect_all_of(warnings(half_slab("beam2", "[3, 4]")),
+                {"ends at node 3 of the side x = 0", "rotation is free", "S372"});
+  EXPECT_TRUE(warned(half_slab("beam2", "[4, 3]")));
+  EXPECT_TRUE(warned(half_slab("beam2_hinged", "[4, 3]"))) << "the hinge is at the other end";
+  EXPECT_FALSE(warned(half_slab("beam2_hinged", "[3, 4]"))) << "a hinge is meant";
+  EXPECT_FALSE(warned(half_slab("beam2", "[3, 4]", ", {first = 3, x = \"fixed\", unknown = \"rotation\"}")));
+  EXPECT_FALSE(warned(half_slab("beam2", "[3, 4]", ", {first = 3, y = \"fixed\"}"))) << "a pinned support";
+  EXPECT_FALSE(warned(half_slab("beam2", "[3, 1]"))) << "a wall along the line";
+  EXPECT_FALSE(warned(half_slab("beam2", "[4, 2]", "", "gravity_y = -1"))) << "a wall that stands on the base";
+}
+
 // A cantilever along (cos 30, sin 30) with forces of 10 across it at its end: no axial force, and M = 0 at the end, where
 // sums of products leave rounding.
 TEST(Factors, RoundingIsZeroInTheirTable) {
