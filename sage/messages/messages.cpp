@@ -1010,7 +1010,8 @@ constexpr MessageEntry kMessages[] = {
      "Hold the part by fixities, or use only the results before the interfaces opened."},
     {"S528", "the first stage does not start in equilibrium",
      "The initial stresses are not in equilibrium with the weights, loads and supports of the first stage. The "
-     "first increment releases the difference, so that bodies move before a load acts.",
+     "difference is released in proportion over the increments of the stage, so that bodies move without a "
+     "load.",
      "If this motion matters, correct the initial stress, K0 or the weights, or add the gravity or pressure "
      "that balances the stress. If there is no initial stress on purpose, nothing needs to be done."},
     {"S529", "seepage exits switch between two states",
