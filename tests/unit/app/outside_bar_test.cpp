@@ -73,7 +73,7 @@ TEST(OutsideBar, ValuesThatABarHasNoUseForAreNoted) {
   EXPECT_EQ(notes_of("    1    0      -10.").find("not used"), std::string::npos);
   EXPECT_NE(
       notes_of("    1    0      -10.       5.                 7.")
-          .find("not used of this initial stress card: value 2, value 4; a own_bar2 has 1 component of stress"),
+          .find("not used of this initial stress card: value 2, value 4; own_bar2 has 1 component of stress"),
       std::string::npos);
 }
 
@@ -119,7 +119,7 @@ TEST(OutsideBar, WhatDoesNotFitIsRefusedByName) {
   wrong_law.material(1, 1, {1000.0, 0.2});
   wrong_law.stage();
   EXPECT_NE(message(wrong_law).find(
-                "a own_bar2 needs a law for structures of 1 component, material 1 is linear_elastic"),
+                "own_bar2 needs a law for structures of 1 component, material 1 is linear_elastic"),
             std::string::npos)
       << message(wrong_law);
   DeckWriter pressed = truss();
