@@ -409,7 +409,7 @@ void add_choice_options(CLI::App& parser, SafetyOptions& o) {
       "parts whose strength is divided, separated by commas: soil (the default), joints, anchors (bars and "
       "springs), walls (M_p and N_p of beams)");
   // Flags come after the list, whatever their order.
-  const auto add = [&](const char* flag, std::vector<ModelPart> parts, const char* what) {
+  const auto add = [&](const char* flag, const std::vector<ModelPart>& parts, const char* what) {
     parser.add_flag_callback(
         flag, [&o, parts] { o.search.reduce.insert(o.search.reduce.end(), parts.begin(), parts.end()); }, what);
   };
