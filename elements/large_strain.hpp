@@ -2,6 +2,7 @@
 // that the element has moved to.  docs/theory/large_strain.md
 #pragma once
 
+#include <cassert>
 #include <cmath>
 #include <string>
 
@@ -96,8 +97,9 @@ class LargeStrain final : public Element {
 
   // Stress arrives and leaves as Cauchy stress, strain as logarithmic strain of the left stretch.
   Outcome evaluate(const ElementIn& in, ElementOut& out) const override {
-    // The model builder rejects other laws.
-    const auto& law = static_cast<const ElasticShear&>(*std::get<const SolidLaw*>(in.law));
+    const SolidLaw* const of_group = std::get<const SolidLaw*>(in.law);
+    assert(dynamic_cast<const ElasticShear*>(of_group) && "the model builder rejects other laws");
+    const auto& law = static_cast<const ElasticShear&>(*of_group);
     const std::size_t of_law = law.traits().history.size();
     const std::size_t stride = of_law + kOwn;
     // A loop for each part of a point's work: the processor then works at several points at once.

@@ -762,10 +762,11 @@ Json convergence_json(const Convergence& found) {
 int converge(const RunRequest& request, const ConvergeOptions& options, const Catalogue& catalogue,
              Json* answer_of_deck) {
   const Convergence found = refine_until_converged(request, options, catalogue);
-  std::vector<std::filesystem::path> files{found.table};
-  files.insert(files.end(), found.reports.begin(), found.reports.end());
-  if (answer_of_deck != nullptr)
+  if (answer_of_deck != nullptr) {
+    std::vector<std::filesystem::path> files{found.table};
+    files.insert(files.end(), found.reports.begin(), found.reports.end());
     *answer_of_deck = {{"convergence", convergence_json(found)}, {"files", files_json(files)}};
+  }
   if (!found.not_reached.empty()) say_error(request.deck, "NOT REACHED: " + found.not_reached, "S408");
   return found.exit_code;
 }

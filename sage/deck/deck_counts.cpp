@@ -57,10 +57,8 @@ bool DeckReader::count_of(const Expression& expression, const std::string& what,
     return true;
   }
   SourcePosition where = log_.line(records_.line());
-  const auto is_field = [](const ExpressionNode& node) { return node.kind == ExpressionNode::Kind::field; };
-  if (std::ranges::none_of(expression.nodes, is_field)) return "given by the layout";
   for (const ExpressionNode& node : expression.nodes)
-    if (is_field(node))
+    if (node.kind == ExpressionNode::Kind::field)
       if (const FieldValue* value = field_value(node.card, node.field)) where = log_.where(*value);
   const std::string computed = expression.nodes.size() > 1 ? expression.source + " with " : "";
   fail_and_stop(where, "the number of " + what + " can't be " + number_text(number) + " (" + computed +

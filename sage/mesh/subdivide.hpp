@@ -62,7 +62,7 @@ class Subdivision {
   std::vector<int> child_;                      // nodes of the child in hand
 };
 
-// Every element into four, interfaces into two, n times.
+// Every element into four, interfaces into two, n times.  option: its name in messages.
 void refine(Work& b, int times, const std::string& option);
 
 // Layers of ever smaller elements around each of the nodes (indices): those that have it as a corner are split

@@ -74,6 +74,19 @@ TEST(Computed, ACountOfTheLayoutIsNamedAsOne) {
   }
 }
 
+// A count without a field is checked like one of the deck.
+TEST(Computed, ACountOfTheLayoutMustBeWhole) {
+  std::string layout = kMaterials;
+  layout.replace(layout.find("repeat = 2"), 10, "repeat = '5 / 2'");
+  try {
+    read(layout, kTwoRows);
+    FAIL() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.diagnostics().list().front().message.find("can't be 2.5"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Computed, StandsAnywhereAmongTheFields) {
   const Deck deck = read(R"toml(
 [[card]]
