@@ -92,6 +92,7 @@ Outcome ElementWork::evaluate(GroupData& data, int element, const Eigen::VectorX
   in.du = du_.data();
   in.law = data.law;
   in.second_law = data.second_law;
+  in.four_law = data.four_law;
   const bool has_room = !data.state.committed.sigma.empty();
   in.sigma0 = has_room ? data.state.committed.sigma.data() + at : no_stress_.data();
   in.eps0 = has_room ? data.state.committed.eps.data() + at : no_stress_.data();

@@ -32,7 +32,8 @@ struct GroupData {
   bool active = false;
   bool wants_context = false;  // its law does
   bool constant = false;       // of a linear law, and matrices and forces are kept: iterations call no law
-  // Where its elements are evaluated four at a time: what its element and its law offer for that; else nullptr.
+  // Where its elements are evaluated four at a time: what its element and its law offer for that; else nullptr.  The law
+  // alone where elements take their own points by four.
   const FourElements* four_elements = nullptr;
   const FourPointLaw<4>* four_law = nullptr;
   StateStore state;
@@ -63,7 +64,7 @@ struct GroupData {
   std::vector<double> spread_start, spread_end;
   std::vector<FollowedEdge> followed;  // of large strain, by element
 
-  bool four_abreast() const { return four_law != nullptr; }
+  bool four_abreast() const { return four_elements != nullptr; }
   bool keeps_matrices() const { return !matrix.empty(); }
   std::size_t matrix_size() const { return dofs() * dofs(); }
   std::size_t dofs() const { return dofs_; }  // of an element

@@ -125,6 +125,7 @@ Outcome ElementRun::evaluate(const Eigen::VectorXd& du, bool want_stiffness) {
   in.x = x.data();
   in.second_law = second_law;
   in.edges = edges;
+  in.four_law = four_law;
   ElementOut out{
       want_stiffness ? K.data() : nullptr, f.data(), sigma1.data(), eps1.data(), h1.data(), status.data()};
   return element->evaluate(in, out);

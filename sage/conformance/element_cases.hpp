@@ -55,7 +55,8 @@ struct ElementRun {
   std::vector<PointStatus> status;
   Eigen::VectorXd u0;  // zero unless it is set
   double dt = 0.0;
-  std::vector<EdgeTraction> edges;  // of large strain
+  std::vector<EdgeTraction> edges;            // of large strain
+  const FourPointLaw<4>* four_law = nullptr;  // likewise
   Eigen::MatrixXd K;
   Eigen::VectorXd f;
 };

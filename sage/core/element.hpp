@@ -50,6 +50,9 @@ struct ElementTraits {
 };
 
 // A load on an edge, as Element::edge_load has it.
+template <int N>
+class FourPointLaw;
+
 struct EdgeTraction {
   int edge = 0;
   Vector2 normal = Vector2::Zero(), shear = Vector2::Zero();
@@ -78,6 +81,8 @@ struct ElementIn {
   // committed state; nullptr = there are none.
   const double* spread = nullptr;
   const double* spread0 = nullptr;
+  // Of large strain: the law again, where it updates four points at once; nullptr = one by one.
+  const FourPointLaw<4>* four_law = nullptr;
   // Of large strain: loads on its edges at the end of the step.  The loads of the run are those of the mesh; what the motion
   // adds to them is taken from f (and its derivative from K).
   std::span<const EdgeTraction> edges = {};

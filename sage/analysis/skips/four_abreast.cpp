@@ -9,11 +9,11 @@ void find_fours(GroupData& data) {
   data.four_law = nullptr;
   const Element& element = *data.group->element;
   const auto* const solid = std::get_if<const SolidLaw*>(&data.law);
-  if (solid == nullptr || data.constant || data.wants_context || !data.dof_list.empty() ||
-      !four_may_go_together(element.traits()))
-    return;
-  const auto* const elements = dynamic_cast<const FourElements*>(&element);
+  if (solid == nullptr || data.constant || data.wants_context || !data.dof_list.empty()) return;
   const auto* const law = dynamic_cast<const FourPointLaw<4>*>(*solid);
+  if (element.traits().large_strain) data.four_law = law;
+  if (!four_may_go_together(element.traits())) return;
+  const auto* const elements = dynamic_cast<const FourElements*>(&element);
   if (elements == nullptr || law == nullptr) return;
   data.four_elements = elements;
   data.four_law = law;
