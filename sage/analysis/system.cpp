@@ -21,6 +21,11 @@ std::vector<EquationPlace> places_of(const Mesh& mesh, const Assembly& assembly)
   return places;
 }
 
+// All steps of the stage have one size, and K depends on nothing else.
+bool has_one_matrix(const Assembly& assembly, const Stage& stage) {
+  return stage.grading == 1.0 && stage.time_error == 0.0 && stage.ends.empty() && linear_in_step(assembly);
+}
+
 }  // namespace
 
 System::System(const Model& model, const Catalogue& catalogue, const RunSettings& settings, WorkCounters& work)
@@ -60,9 +65,9 @@ std::unique_ptr<LinearSolver> System::make(const SolverEntry& entry, bool one_fa
   return solver;
 }
 
-void System::analyse() {
+void System::analyse(bool one_factorisation) {
   const SolverEntry* entry = choose_solver({assembly_->equations(), scene_.symmetric, model_.has_pores()});
-  std::unique_ptr<LinearSolver> solver = make(*entry, tangent_.constant());
+  std::unique_ptr<LinearSolver> solver = make(*entry, one_factorisation);
   if (auto* placed = dynamic_cast<PlacedSolver*>(solver.get()))
     placed->set_places(places_of(model_.mesh, *assembly_));
   ElementEquations elements = assembly_->element_equations();
@@ -107,7 +112,7 @@ void System::open_stage(int s) {
   const bool same_pattern = !eliminated_before && assembly_->eliminated().dofs().empty() &&
                             held_before_ == activity_.held && groups_before_ == activity_.group &&
                             turned_before_ == activity_.turned;
-  if (!same_pattern) analyse();
+  if (!same_pattern) analyse(tangent_.constant() || has_one_matrix(*assembly_, stage));
   const bool serves = tangent_.constant() && tangent_.factorised() && rate_.isZero(0.0);
   if (!serves) tangent_.forget();
 }
@@ -158,7 +163,7 @@ void System::take_exits(const Eigen::VectorXd& u, double part) {
 void System::renumber() {
   assembly_->enter_stage(activity_, rate_);
   tangent_.set_rate(rate_);
-  analyse();
+  analyse(tangent_.constant());
   tangent_.forget();
 }
 

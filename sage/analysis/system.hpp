@@ -55,7 +55,7 @@ class System {
   void enter(const Stage& stage);
   const SolverEntry* choose_solver(const SystemSize& size) const;
   std::unique_ptr<LinearSolver> make(const SolverEntry& entry, bool one_factorisation) const;
-  void analyse();
+  void analyse(bool one_factorisation);
   void take_exits(const Eigen::VectorXd& u, double part);
 
   const Model& model_;
