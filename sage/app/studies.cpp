@@ -86,8 +86,10 @@ Command stress_command(CLI::App& parser, const Catalogue& catalogue) {
 Command verify_command(CLI::App& parser, const Catalogue& catalogue) {
   auto options = std::make_shared<VerifyOptions>();
   parser.add_flag("--list", options->list, "list the cases and their references; compute nothing");
-  parser.add_option("--only", options->only,
-                    "compute only the cases or sections whose name contains this word");
+  parser.add_option(
+      "--only", options->only,
+      "compute only the cases or sections whose name contains this word; a case that takes minutes "
+      "only by its whole name");
   parser.add_flag("--rows", options->rows,
                   "print every number of a case, not only the one closest to its limit");
   parser.add_option("--csv", options->csv, "write every number as CSV to this file");

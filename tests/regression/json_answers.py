@@ -161,6 +161,9 @@ def check_others(folder):
     answer(folder, "layout", "check", "sage1", DECK)
     book = answer(folder, "verify", "--only", "nosuchcase", code=1)["messages"][0]["message"]
     expect("no case matches" in book, book)
+    # A case that takes minutes needs its whole name.
+    book = answer(folder, "verify", "--only", "strip_fine", code=1)["messages"][0]["message"]
+    expect("no case matches" in book, book)
     cases = answer(folder, "verify", "--only", "lame.two_rings")["result"]
     expect(cases["row_count"] == sum(len(one["rows"]) for one in cases["cases"]) > 0, "rows of cases")
     answer(folder, "verify", "--list")

@@ -23,6 +23,7 @@ namespace {
 using namespace verify;
 
 bool chosen(const VerifyOptions& options, const Section& section, const Case& one) {
+  if (one.takes_minutes && !options.list) return !options.write.empty() || options.only == one.name;
   return options.only.empty() || one.name.find(options.only) != std::string::npos ||
          section.title.find(options.only) != std::string::npos;
 }
@@ -73,7 +74,8 @@ int list_cases(const VerifyOptions& options, const std::vector<Section>& section
     for (const Case& one : section.cases)
       if (chosen(options, section, one)) {
         if (screen().json) answer_case(case_json(section, one));
-        fmt::print("  {:<26} {}; {} ({})\n", one.name, one.title, one.source, name_of(one.grade));
+        fmt::print("  {:<26} {}; {} ({}){}\n", one.name, one.title, one.source, name_of(one.grade),
+                   one.takes_minutes ? "; minutes: only by its whole name, or with --write" : "");
       }
   }
   return kOk;

@@ -100,6 +100,7 @@ struct Case {
   Grade grade = Grade::exact;
   std::string gate;  // why the gate is what it is
   std::function<void(Record&)> run;
+  bool takes_minutes = false;  // computed for the page, and where --only is its whole name
 };
 
 struct Section {
