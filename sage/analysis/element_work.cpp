@@ -174,7 +174,13 @@ void add_force(const GroupData& data, int element, const double* f, Eigen::Vecto
   }
   const ElementDofs dofs = data.dofs_of(element);
   dofs.add(f, to);
-  for (std::size_t i = 0; i < dofs.size(); ++i) sums[data.field_of_dof[i]] += f[i] * f[i];
+  // Dofs of one field stand together: its sum stays in a register.
+  for (std::size_t i = 0; i < dofs.size();) {
+    const int field = data.field_of_dof[i];
+    double sum = 0.0;
+    for (; i < dofs.size() && data.field_of_dof[i] == field; ++i) sum += f[i] * f[i];
+    sums[field] += sum;
+  }
 }
 
 bool has_matrix_of_step(const GroupData& data) {

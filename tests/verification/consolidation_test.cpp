@@ -1123,6 +1123,26 @@ TEST(Consolidation, OneFactorisationServesEqualSteps) {
   EXPECT_LE(done.result.work.solves, 24);
 }
 
+// A mesh with equal parts; in the second stage the steps have another size, in the third one they grow.
+TEST(Consolidation, EqualPartsAreEliminatedOnceInEqualSteps) {
+  const LatticeMesh mesh{.x = graded(0.0, 1.0, 30), .y = graded(0.0, 2.0, 60)};
+  ModelInput input = pore_input(mesh, 1.0, 0.2, 1.0);
+  input.supports = {held(mesh.column(0), true, false), held(mesh.row(0), true, true),
+                    drained(mesh.corner_row(2 * mesh.rows()))};
+  StageInput load = shut_in();
+  const std::vector<int> all = mesh.upper_elements(), loaded(all.begin(), all.begin() + 12);
+  load.pressures = {{.elements = loaded, .edge = mesh.upper_edge(), .normal1 = 1.0, .normal2 = 1.0}};
+  input.stages = {load, consolidation(0.1, 3), consolidation(1.0, 2), consolidation(5.0, 3, 2.0)};
+  RunSettings plain;
+  plain.skips.twins = false;
+  const WholeRun with = run(input), without = run(input, plain);
+  EXPECT_GT(with.result.work.twin_equations, 1000);
+  EXPECT_EQ(without.result.work.twin_equations, 0);
+  ASSERT_EQ(with.increments.size(), without.increments.size());
+  for (std::size_t i = 0; i < with.increments.size(); ++i)
+    EXPECT_TRUE(with.increments[i].u == without.increments[i].u) << i;
+}
+
 // Forces of elastic soil by the matrices of a step, and states where they are needed: as with every element in every pass.
 TEST(Consolidation, MatricesOfAStepChangeNothing) {
   struct LastStates final : Observer {
