@@ -75,14 +75,14 @@ void add_initial_stress_stiffness(const Tensor<Real>& tau, GradientStiffness<Rea
   C[kZz][kZz] -= tau[2];
 }
 
-// The places of Real go to as many points of the element; those of the last points may be one and the same.
+// Points are computed in blocks, one in each place of Real; the last places of the last block repeat the last point.
 template <class Shape, class Kinematics, class Rule, AssumedStrain strain,
           class Real = std::conditional_t<(Rule::points < 3), double, Four>>
 class LargeStrain final : public Element {
   static_assert(strain != AssumedStrain::enhanced);
   static constexpr int kNodes = Shape::nodes, kDofs = 2 * kNodes;
   static constexpr std::size_t kPoints = Rule::points, kOwn = kLargeStrainHistory.size();
-  static constexpr std::size_t kTogether = kPlaces<Real>, kParts = (kPoints + kTogether - 1) / kTogether;
+  static constexpr std::size_t kTogether = kPlaces<Real>, kBlocks = (kPoints + kTogether - 1) / kTogether;
   static constexpr bool kRing = Kinematics::geometry == Geometry::axisymmetric;
   static constexpr bool kMean = strain == AssumedStrain::mean_dilatation;
   using Small = Solid<Shape, Kinematics, Rule, strain>;
@@ -99,10 +99,10 @@ class LargeStrain final : public Element {
     traits_.sees_unknowns = true;
     traits_.sees_coordinates = true;
     traits_.history = kLargeStrainHistory;
-    for (std::size_t b = 0; b < kParts; ++b)
+    for (std::size_t b = 0; b < kBlocks; ++b)
       for (std::size_t l = 0; l < kTogether; ++l) {
         const RulePoint& at = Rule::table[point(b, l)];
-        parts_[b].take(ShapeAt<Shape>({at.xi, at.eta}, at.w), l);
+        blocks_[b].take(ShapeAt<Shape>({at.xi, at.eta}, at.w), l);
       }
   }
 
@@ -135,32 +135,32 @@ class LargeStrain final : public Element {
     const auto& law = static_cast<const ElasticShear&>(*of_group);
     const std::size_t of_law = law.traits().history.size(), stride = of_law + kOwn;
     // A loop for each part of a point's work: the processor then works at several points at once.
-    std::array<Moved, kParts> moved;
-    std::array<LogPoints<Real>, kParts> points;
+    std::array<Moved, kBlocks> moved;
+    std::array<LogPoints<Real>, kBlocks> points;
     Dilatation whole;
     const Motion motion(in);
-    for (std::size_t b = 0; b < kParts; ++b)
+    for (std::size_t b = 0; b < kBlocks; ++b)
       if (!move(motion, b, gradient_from(in.h0 + of_law, stride, b), moved[b])) return Outcome::cut_step;
     if constexpr (kMean) {
       whole.sum(moved);
       for (Moved& m : moved) whole.take_mean(m);
     }
-    for (std::size_t b = 0; b < kParts; ++b) {
+    for (std::size_t b = 0; b < kBlocks; ++b) {
       store_gradient(moved[b].total, stride, b, out.h1 + of_law);
       if (!find_strains(law, in, b, stride, moved[b], points[b], out)) return Outcome::cut_step;
     }
-    for (std::size_t b = 0; b < kParts; ++b) {
+    for (std::size_t b = 0; b < kBlocks; ++b) {
       if (find_stresses(law, in, b, stride, points[b], out) != Outcome::ok) return Outcome::cut_step;
       Tensor<Real> sigma = points[b].tau;
       for (Real& component : sigma) component /= 1.0 + moved[b].change;
       scatter(sigma, b, out.sigma1);
     }
     Forces f;
-    for (std::size_t b = 0; b < kParts; ++b) add_forces(b, moved[b], whole, points[b].tau, f);
+    for (std::size_t b = 0; b < kBlocks; ++b) add_forces(b, moved[b], whole, points[b].tau, f);
     write(f, out);
     if (out.K != nullptr) {
       Stiffness K;
-      for (std::size_t b = 0; b < kParts; ++b) add_stiffness(b, moved[b], whole, points[b], K);
+      for (std::size_t b = 0; b < kBlocks; ++b) add_stiffness(b, moved[b], whole, points[b], K);
       if constexpr (kMean) add_volume_curvature(moved, whole, K);
       write(K, out.K);
     }
@@ -169,17 +169,15 @@ class LargeStrain final : public Element {
   }
 
  private:
-  // The point of a place in a part.
-  static constexpr std::size_t point(std::size_t part, std::size_t l) {
-    return std::min(part * kTogether + l, kPoints - 1);
+  // The point of a place in a block.
+  static constexpr std::size_t point(std::size_t b, std::size_t l) {
+    return std::min(b * kTogether + l, kPoints - 1);
   }
-  // Points of a part, without those that stand there again.
-  static constexpr std::size_t used(std::size_t part) {
-    return std::min(kTogether, kPoints - part * kTogether);
-  }
+  // Points of a block, without those that stand there again.
+  static constexpr std::size_t used(std::size_t b) { return std::min(kTogether, kPoints - b * kTogether); }
 
-  // Shape functions at the points of a part.
-  struct Part {
+  // Shape functions at the points of a block.
+  struct Block {
     std::array<Real, kNodes> N, dN_xi, dN_eta;
     Real w;
     std::array<ShapeAt<Shape>, kTogether> at;
@@ -217,7 +215,7 @@ class LargeStrain final : public Element {
     Nodes bx = Nodes::Zero(), by = Nodes::Zero();  // sum of volume times (N,x + N/r), N,y
     double pressure = 0.0;                         // sum of reference times tr(tau)/3
 
-    void sum(const std::array<Moved, kParts>& moved) {
+    void sum(const std::array<Moved, kBlocks>& moved) {
       for (std::size_t p = 0; p < kPoints; ++p) {
         const Moved& m = moved[p / kTogether];
         const std::size_t l = p % kTogether;
@@ -269,7 +267,7 @@ class LargeStrain final : public Element {
     Products<kPoints*(kMean ? 4 + 2 * kRowsY : kRowsY) + (kMean ? 1 : 0)> y;
   };
 
-  // Tensors of a part's points, from and to those of all points in turn.
+  // Tensors of a block's points, from and to those of all points in turn.
   static Tensor<Real> gather(const double* from, std::size_t b) {
     Tensor<Real> t;
     if constexpr (kTogether == 1)
@@ -287,7 +285,7 @@ class LargeStrain final : public Element {
                    0);
   }
 
-  // History of the element at a part's points: `at` of the first point, and from one to the next.
+  // History of the element at a block's points: `at` of the first point, and from one to the next.
   static PlaneGradient<Real> gradient_from(const double* at, std::size_t stride, std::size_t b) {
     PlaneGradient<Real> g;
     for (std::size_t l = 0; l < kTogether; ++l) {
@@ -307,16 +305,16 @@ class LargeStrain final : public Element {
 
   // False where the element is turned inside out.
   bool move(const Motion& to, std::size_t b, const PlaneGradient<Real>& last, Moved& m) const {
-    const Part& part = parts_[b];
+    const Block& block = blocks_[b];
     Real x_xi{}, x_eta{}, y_xi{}, y_eta{}, dx_xi{}, dx_eta{}, dy_xi{}, dy_eta{}, r0{}, dr{};
 #pragma GCC unroll 15
     for (int i = 0; i < kNodes; ++i) {
-      const Real &xi = part.dN_xi[i], &eta = part.dN_eta[i];
+      const Real &xi = block.dN_xi[i], &eta = block.dN_eta[i];
       x_xi += to.before(0, i) * xi, x_eta += to.before(0, i) * eta;
       y_xi += to.before(1, i) * xi, y_eta += to.before(1, i) * eta;
       dx_xi += to.du(0, i) * xi, dx_eta += to.du(0, i) * eta;
       dy_xi += to.du(1, i) * xi, dy_eta += to.du(1, i) * eta;
-      if constexpr (kRing) r0 += to.before(0, i) * part.N[i], dr += to.du(0, i) * part.N[i];
+      if constexpr (kRing) r0 += to.before(0, i) * block.N[i], dr += to.du(0, i) * block.N[i];
     }
     if constexpr (!kRing) r0 = everywhere<Real>(1.0);
     const Real r = r0 + dr;
@@ -327,7 +325,7 @@ class LargeStrain final : public Element {
     const Real by_det = 1.0 / det, by_r = 1.0 / r, by_det0 = 1.0 / det0;
     const Real xi_x = J_yy * by_det, eta_x = -J_yx * by_det, xi_y = -J_xy * by_det, eta_y = J_xx * by_det;
     for (std::size_t l = 0; l < used(b); ++l) {
-      const ShapeAt<Shape>& at = part.at[l];
+      const ShapeAt<Shape>& at = block.at[l];
       const auto dN_xi = at.dN.col(0), dN_eta = at.dN.col(1);
       m.at[l].x = place(xi_x, l) * dN_xi + place(eta_x, l) * dN_eta;
       m.at[l].y = place(xi_y, l) * dN_xi + place(eta_y, l) * dN_eta;
@@ -342,8 +340,8 @@ class LargeStrain final : public Element {
     m.total = m.strained = followed_by(last, m.step);
     m.change0 = last.volume_change();
     m.change = m.total.volume_change();
-    m.volume = part.w * det * Kinematics::measure(r);
-    m.reference = part.w * det0 * Kinematics::measure(r0) / (1.0 + m.change0);
+    m.volume = block.w * det * Kinematics::measure(r);
+    m.reference = block.w * det0 * Kinematics::measure(r0) / (1.0 + m.change0);
     return holds_everywhere(m.change > -1.0);
   }
 
@@ -489,14 +487,14 @@ class LargeStrain final : public Element {
   }
 
   // The mean pressure times the second derivative of the logarithm of the element's volume.
-  static void add_volume_curvature(const std::array<Moved, kParts>& moved, const Dilatation& whole,
+  static void add_volume_curvature(const std::array<Moved, kBlocks>& moved, const Dilatation& whole,
                                    Stiffness& K) {
     GradientStiffness<Real> unit{};
     for (const std::size_t i : {kXx, kYy, kZz})
       for (const std::size_t j : {kXx, kYy, kZz}) unit[i][j] = everywhere<Real>(1.0);
     const Real one = everywhere<Real>(1.0);
     add_initial_stress_stiffness({one, one, one, Real{}}, unit);
-    for (std::size_t b = 0; b < kParts; ++b) {
+    for (std::size_t b = 0; b < kBlocks; ++b) {
       GradientStiffness<Real> C = unit;
       multiply_by(whole.pressure / whole.volume * moved[b].volume, C);
       for (std::size_t l = 0; l < used(b); ++l) add_plain(moved[b].at[l], of_place(C, l), K);
@@ -562,7 +560,7 @@ class LargeStrain final : public Element {
   std::string name_;
   Small small_;
   ElementTraits traits_;
-  std::array<Part, kParts> parts_;
+  std::array<Block, kBlocks> blocks_;
 };
 
 }  // namespace sage
