@@ -3,6 +3,8 @@
 
 Usage: bench.py SAGEFE [-o FOLDER] [--only TABLE,...] [--runs N] [--largest N] [--threads N] [--no-peers]
        bench.py SAGEFE --quick        a few seconds, the smallest meshes, to see that everything works
+       bench.py SAGEFE --check        name the ratios that moved by more than 15 % from docs/benchmarks; exit code 1 if any did
+       bench.py SAGEFE --page         write the page again from the kept tables; measure nothing
 
 All tables take about 40 minutes.  With --only the others stay as they are: every table is kept in FOLDER/benchmarks/tables.json
 with its texts, options and date, and FOLDER/benchmarks.md is written from there.
@@ -22,7 +24,9 @@ import tempfile
 import textwrap
 import time
 
+import check
 import growth
+import head
 import measure
 import nonlinear
 import peers
@@ -84,6 +88,7 @@ def run_parts(bench, names):
     found = {}
     peak = measure.dgemm(bench.args.threads)
     bench.dgemm = peak
+    date, commit = time.strftime("%Y-%m-%d"), measure.commit()
     for name in names:
         start = time.perf_counter()
         bench.notes = []
@@ -91,7 +96,7 @@ def run_parts(bench, names):
         for key, table in tables.items():
             found[key] = dataclasses.asdict(table)
             options = with_threads(table.options, bench.args.threads, table.runs or bench.args.runs)
-            found[key].update(part=name, options=options, notes=[], charts=[], machine=measure.machine(), dgemm=peak, date=time.strftime("%Y-%m-%d"))
+            found[key].update(part=name, options=options, notes=[], charts=[], machine=measure.machine(), dgemm=peak, date=date, commit=commit)
         found[list(tables)[-1]]["notes"] = bench.notes
         print(f"  {name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
     return found
@@ -118,13 +123,11 @@ ELEMENTS = (
 )
 
 
-def header(kept, versions):
-    text = ["# Benchmarks: run time against error", "", prose(INTRODUCTION), "", "## How the times were measured", "", prose(MEASURED), ""]
-    text += [f"- Machine: {name}" for name in sorted({table["machine"] for table in kept.values()})]
-    speeds = [table["dgemm"] for table in kept.values() if table["dgemm"]]
-    if speeds:
-        between = f"{min(speeds):.0f}" + (f" to {max(speeds):.0f}" if max(speeds) > 1.02 * min(speeds) else "")
-        text.append(prose(f"- For comparison: products of matrices of 1500 x 1500 (DGEMM of numpy with OpenBLAS, on as many threads as the programs) reach {between} GF/s, that is 1e9 floating-point operations per second"))
+def header(kept, versions, overview):
+    text = ["# Benchmarks: run time against error", "", *head.sources(kept), ""]
+    text += [line for words in head.sentences(kept) for line in (prose(f"- {words}"),)] + [""]
+    text += [f"![{title}](benchmarks/{name})" for title, name in overview] + [""] * bool(overview)
+    text += [prose(INTRODUCTION), "", "## How the times were measured", "", prose(MEASURED), ""]
     for name in ("CalculiX", "FreeFEM", "dolfinx"):
         text.append(f"- {name}: {versions[name] if name in versions else 'not installed, so its columns are empty'}")
     text.append(prose("- CalculiX has no Tresca law. It computes the strip footings with von Mises, which has the same collapse load in plane strain, and only on the coarsest mesh."))
@@ -133,16 +136,14 @@ def header(kept, versions):
     return text
 
 
-def page(kept, versions):
-    text = header(kept, versions)
+def page(kept, versions, overview):
+    text = header(kept, versions, overview)
     for key in ORDER:
         if key not in kept:
             continue
         table = kept[key]
         recorded = f" Recorded {table['date']}." if "date" in table else ""
         text += [f"## {table['title']}", "", *(line for part in table["note"].split("\n\n") for line in (prose(part), "")), prose(f"Options: {table['options']}{recorded}"), ""]
-        if "remark" in table:  # written by hand into tables.json; gone with the next measurement
-            text += [prose(table["remark"]), ""]
         text += [measure.markdown(table["head"], table["rows"])]
         text += [f"![{title}](benchmarks/{name})" for title, name in table["charts"]] + [""] * bool(table["charts"])
         if table["notes"]:
@@ -163,7 +164,7 @@ def write(out, found, versions):
     for key, table in kept["tables"].items():
         table["charts"] = drawn.get(BESIDE.get(key, key), [])
     file.write_text(json.dumps(kept, indent=1) + "\n")
-    (out / "benchmarks.md").write_text(page(kept["tables"], kept["versions"]))
+    (out / "benchmarks.md").write_text(page(kept["tables"], kept["versions"], drawn.get("overview", [])))
 
 
 def arguments():
@@ -177,7 +178,12 @@ def arguments():
     parser.add_argument("--threads", type=int, default=1, help="of every program")
     parser.add_argument("--no-peers", action="store_true")
     parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--check", action="store_true", help="compare every ratio with that of --kept; exit code 1 if one moved by more than 15 %%")
+    parser.add_argument("--kept", type=pathlib.Path, default=scenes.ROOT / "docs/benchmarks/tables.json", help="tables for --check")
+    parser.add_argument("--page", action="store_true", help="write page and charts from the kept tables; measure nothing")
     args = parser.parse_args()
+    if args.check and (pathlib.Path(args.output) / "benchmarks").resolve() == args.kept.resolve().parent:
+        parser.error("--check would overwrite the tables with which it compares: give another folder with -o")
     if args.quick:
         args.runs, args.sizes, args.largest, args.no_peers = 1, 1, 28, True
     args.only = args.only.split(",")
@@ -187,12 +193,26 @@ def arguments():
     return args
 
 
+def report_moved(kept, found):
+    """Prints the ratios that moved; True if there are none, and something was compared."""
+    count, moved = check.compare(json.loads(kept.read_text())["tables"], found)
+    for one in moved:
+        print(one)
+    print(f"{count} ratios compared with {kept}: {len(moved)} moved by more than {check.MOVED:.0%}")
+    return count > 0 and not moved
+
+
 def main():
     args = arguments()
+    if args.quick:
+        check.self_test()
     if args.no_peers:
         peers.CCX = peers.FREEFEM = peers.DOLFINX = None
     out = pathlib.Path(args.output)
     (out / "benchmarks").mkdir(parents=True, exist_ok=True)
+    if args.page:
+        write(out, {}, {})
+        return
     with tempfile.TemporaryDirectory() as name:
         bench = Bench(args, pathlib.Path(name), out / "benchmarks")
         found = run_parts(bench, [part for part in PARTS if part in args.only])
@@ -201,6 +221,8 @@ def main():
     notes = [note for table in found.values() for note in table["notes"]]
     if bench.wrong or (args.quick and notes):
         raise SystemExit("\n".join(["wrong:", *bench.wrong, *notes]))
+    if args.check and not report_moved(args.kept, found):
+        raise SystemExit(1)
 
 
 if __name__ == "__main__":

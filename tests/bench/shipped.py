@@ -43,7 +43,7 @@ GOALS_NOTE = (
     "Runs of decks as users start them, with all output that a run writes by default. sagefe chooses the number of threads. The goals are for the wall time. The error is that of the ratio at the end of the run, where a goal refers to it."
 )
 GOALS_OPTIONS = "`sagefe run DECK`."
-GOALS_HEAD = ["deck", "wall ms, median (min-max)", "processor ms", "error of the ratio", "goal"]
+GOALS_HEAD = ["deck", "wall ms, median (min-max)", "processor ms", "error of the ratio", "goal", "reached"]
 
 
 def error_of(bench, name, scene):
@@ -57,6 +57,14 @@ def error_of(bench, name, scene):
     return f"{abs(float(rows[-1]['ratio[-]']) / reference - 1):.1e}"
 
 
+def reached(goal, wall, error):
+    """yes, no, or empty without a goal; of `50 ms at an error of 1e-4` both parts count."""
+    limit = re.match(r"(\d+) ms(?: at an error of (\S+))?", goal)
+    if not limit:
+        return ""
+    return "yes" if 1e3 * wall <= float(limit.group(1)) and (not limit.group(2) or float(error) <= float(limit.group(2))) else "no"
+
+
 def goals(bench):
     names = list(GOALS)[:2] if bench.args.quick else GOALS
     runs = 2 * bench.args.runs + 1
@@ -66,6 +74,7 @@ def goals(bench):
     for name in names:
         r, (goal, scene) = records[(name,)], GOALS[name]
         rows.append([name, f"{ms(r.wall)} ({ms(min(r.walls))}-{ms(max(r.walls))})", ms(r.cpu), error_of(bench, name, scene), goal])
+        rows[-1].append(reached(goal, r.wall, rows[-1][3]))
     return {"goals": Table(GOALS_TITLE, GOALS_NOTE, GOALS_OPTIONS, GOALS_HEAD, rows, runs)}
 
 
