@@ -25,6 +25,7 @@ import textwrap
 import time
 
 import check
+import general
 import growth
 import head
 import measure
@@ -40,6 +41,7 @@ import shipped
 PARTS = {
     "goals": shipped.goals,
     "linear": same_mesh.linear,
+    "general": general.general,
     "plastic": same_mesh.plastic,
     "precision": precision.precision,
     "graded": precision.graded,
@@ -54,7 +56,7 @@ PARTS = {
 }
 # The table behind which charts stand that are drawn from another file.
 BESIDE = {"equal_error": "precision"}
-ORDER = ["goals", "linear", "plastic", "equal_mesh", "equal_error", *list(PARTS)[4:]]
+ORDER = [key for part in PARTS for key in (("equal_mesh", "equal_error") if part == "precision" else (part,))]
 
 
 class Bench:
