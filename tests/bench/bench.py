@@ -36,6 +36,7 @@ import precision
 import same_mesh
 import scenes
 import shipped
+import work
 
 # In the order of the page: what --only takes, and what measures it.  Each gives {key: Table} and may draw charts.
 PARTS = {
@@ -52,6 +53,8 @@ PARTS = {
     "scaling": growth.scaling,
     "interface": growth.interface,
     "footing": growth.footing,
+    "assembly": work.assembly,
+    "work": work.work,
     "skips": shipped.skips,
 }
 # The table behind which charts stand that are drawn from another file.
@@ -145,7 +148,7 @@ def page(kept, versions, overview):
             continue
         table = kept[key]
         recorded = f" Recorded {table['date']}." if "date" in table else ""
-        text += [f"## {table['title']}", "", *(line for part in table["note"].split("\n\n") for line in (prose(part), "")), prose(f"Options: {table['options']}{recorded}"), ""]
+        text += [f"## {table['title']}", "", *(line for part in table["note"].split("\n\n") for line in (*map(prose, part.split("\n")), "")), prose(f"Options: {table['options']}{recorded}"), ""]
         text += [measure.markdown(table["head"], table["rows"])]
         text += [f"![{title}](benchmarks/{name})" for title, name in table["charts"]] + [""] * bool(table["charts"])
         if table["notes"]:

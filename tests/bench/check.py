@@ -4,7 +4,7 @@ import re
 
 MOVED = 0.15
 # Leading columns that name a row, where it is not the first alone.
-NAMED_BY = {"equal_mesh": 3, "equal_error": 2, "graded": 3, "skips": 2, "collapse": 6, "ratio": 6, "history": 6, "safety": 6, "moment": 6}
+NAMED_BY = {"equal_mesh": 3, "equal_error": 2, "graded": 3, "skips": 2, "assembly": 2, "collapse": 6, "ratio": 6, "history": 6, "safety": 6, "moment": 6}
 # Columns that divide two times.
 RATIO = re.compile(r"\bover\b|^ratio$")
 
