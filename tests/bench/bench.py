@@ -47,6 +47,8 @@ PARTS = {
     "precision": precision.precision,
     "graded": precision.graded,
     "collapse": nonlinear.collapse,
+    "safety": nonlinear.safety,
+    "moment": nonlinear.moment,
     "ratio": nonlinear.ratio,
     "history": nonlinear.history,
     "solvers": precision.solvers,
@@ -122,6 +124,7 @@ MEASURED = (
     "The programs of a table run in turn, after one run of each that is not counted. Each time is the median of several such runs; there are fewer runs if one takes more than three seconds. A ratio of two times divides medians that were measured in the same call of `scripts/bench`. "
     "On another machine the times differ, so compare ratios only."
 )
+AIMS = "Each measured value is a cell, or the range of the cells, of a table below. A goal is reached if all these cells reach it."
 ELEMENTS = (
     "Names of elements and formulations are those of sagefe ([elements](theory/elements.md)). `quad25` and `quad49` are quadrilaterals of degree 4 and 6. `CAX4`, `CAX8` and `CAX8R` are quadrilaterals of CalculiX with 4 and 8 nodes in axisymmetry, `CPE4`, `CPE8` and `CPE8R` those in plane strain; R is reduced integration. "
     "`P1` and `P2` are triangles of FreeFEM of degree 1 and 2, two for each quadrilateral of sagefe. `Q1`, `Q2`, `Q4` and `Q6` are quadrilaterals of dolfinx of that degree."
@@ -151,6 +154,8 @@ def page(kept, versions, overview):
         text += [f"## {table['title']}", "", *(line for part in table["note"].split("\n\n") for line in (*map(prose, part.split("\n")), "")), prose(f"Options: {table['options']}{recorded}"), ""]
         text += [measure.markdown(table["head"], table["rows"])]
         text += [f"![{title}](benchmarks/{name})" for title, name in table["charts"]] + [""] * bool(table["charts"])
+        if key == "goals" and head.aims(kept):
+            text += ["## Goals of each kind of work", "", prose(AIMS), "", measure.markdown(["work", "measured", "goal", "reached"], head.aims(kept))]
         if table["notes"]:
             text += ["Not computed:", "", *(prose(f"- {note}") for note in table["notes"]), ""]
     return "\n".join(text).rstrip() + "\n"

@@ -13,7 +13,7 @@ import nonlinear as nonlinear_tables
 import scenes
 
 # Tables of error against run time, and those of run time against size, by the name of their CSV file.
-NONLINEAR = {"collapse": nonlinear_tables.COLLAPSE_TITLE, "ratio": nonlinear_tables.RATIO_TITLE, "history": nonlinear_tables.HISTORY_TITLE}
+NONLINEAR = {"collapse": nonlinear_tables.COLLAPSE_TITLE, "safety": nonlinear_tables.SAFETY_TITLE, "moment": nonlinear_tables.MOMENT_TITLE, "ratio": nonlinear_tables.RATIO_TITLE, "history": nonlinear_tables.HISTORY_TITLE}
 GROWTH = {"scaling": growth_tables.SCALING_TITLE, "interface": growth_tables.INTERFACE_TITLE, "footing": growth_tables.FOOTING_TITLE}
 
 
