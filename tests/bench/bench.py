@@ -6,7 +6,7 @@ Usage: bench.py SAGEFE [-o FOLDER] [--only TABLE,...] [--runs N] [--largest N] [
        bench.py SAGEFE --check        name the ratios that moved by more than 15 % from docs/benchmarks; exit code 1 if any did
        bench.py SAGEFE --page         write the page again from the kept tables; measure nothing
 
-All tables take about 40 minutes.  With --only the others stay as they are: every table is kept in FOLDER/benchmarks/tables.json
+All tables take about 45 minutes.  With --only the others stay as they are: every table is kept in FOLDER/benchmarks/tables.json
 with its texts, options and date, and FOLDER/benchmarks.md is written from there.
 
 Times are those of whole processes, medians of several runs; programs take turns on each scene and mesh, and ratios are between medians of the same
@@ -116,18 +116,21 @@ def prose(words):
 
 
 INTRODUCTION = (
-    "`scripts/bench` (`tests/bench/bench.py`) writes this page, and every number is a result of it. The tables compare sagefe with CalculiX, FreeFEM and dolfinx, and show how its run time depends on the error, on the "
-    "size of the problem and on its optimisations. [What bounds the run time](theory/speed.md) explains some of the times."
+    "This page compares the run time and the error of sagefe with those of CalculiX, FreeFEM and dolfinx. It also shows how the run time of sagefe depends on the error, on the size of the problem and on the optimisations. "
+    "[What bounds the run time](theory/speed.md) explains some of the times.\n"
+    "\n"
+    "The script `scripts/bench` measures all numbers and writes this page."
 )
 MEASURED = (
-    "*Wall* is elapsed time. *Processor* is the processor time of all threads of a process. Unless a table states otherwise, both are those of a whole process: start, input, computation and output. "
-    "The programs of a table run in turn, after one run of each that is not counted. Each time is the median of several such runs; there are fewer runs if one takes more than three seconds. A ratio of two times divides medians that were measured in the same call of `scripts/bench`. "
-    "On another machine the times differ, so compare ratios only."
+    "*Wall time* is elapsed time. *Processor time* is the sum over all threads of a process. Unless a table states otherwise, both include the whole process: start, input, computation and output. "
+    "The programs of a table run alternately, after one run of each that is not counted. Each time is the median of several such runs, or of fewer runs if one takes more than three seconds. "
+    "A ratio of two times divides medians that were measured in the same call of `scripts/bench`. On another machine the times differ, so use the ratios for comparisons."
 )
 AIMS = "Each measured value is a cell, or the range of the cells, of a table below. A goal is reached if all these cells reach it."
 ELEMENTS = (
-    "Names of elements and formulations are those of sagefe ([elements](theory/elements.md)). `quad25` and `quad49` are quadrilaterals of degree 4 and 6. `CAX4`, `CAX8` and `CAX8R` are quadrilaterals of CalculiX with 4 and 8 nodes in axisymmetry, `CPE4`, `CPE8` and `CPE8R` those in plane strain; R is reduced integration. "
-    "`P1` and `P2` are triangles of FreeFEM of degree 1 and 2, two for each quadrilateral of sagefe. `Q1`, `Q2`, `Q4` and `Q6` are quadrilaterals of dolfinx of that degree."
+    "Names of elements and formulations are those of sagefe ([elements](theory/elements.md)). `quad25` and `quad49` are quadrilaterals of degree 4 and 6. "
+    "`CAX4`, `CAX8` and `CAX8R` are quadrilaterals of CalculiX with 4 and 8 nodes in axisymmetry, `CPE4`, `CPE8` and `CPE8R` those in plane strain; R is reduced integration. "
+    "`P1` and `P2` are triangles of FreeFEM of degree 1 and 2, with two triangles for each quadrilateral of sagefe. `Q1`, `Q2`, `Q4` and `Q6` are quadrilaterals of dolfinx of degree 1, 2, 4 and 6."
 )
 
 
@@ -135,10 +138,10 @@ def header(kept, versions, overview):
     text = ["# Benchmarks: run time against error", "", *head.sources(kept), ""]
     text += [line for words in head.sentences(kept) for line in (prose(f"- {words}"),)] + [""]
     text += [f"![{title}](benchmarks/{name})" for title, name in overview] + [""] * bool(overview)
-    text += [prose(INTRODUCTION), "", "## How the times were measured", "", prose(MEASURED), ""]
+    text += [*(line for part in INTRODUCTION.split("\n\n") for line in (prose(part), "")), "## How the times were measured", "", prose(MEASURED), ""]
     for name in ("CalculiX", "FreeFEM", "dolfinx"):
         text.append(f"- {name}: {versions[name] if name in versions else 'not installed, so its columns are empty'}")
-    text.append(prose("- CalculiX has no Tresca law. It computes the strip footings with von Mises, which has the same collapse load in plane strain, and only on the coarsest mesh."))
+    text.append(prose("- CalculiX has no Tresca law. It computes the strip footings with the law of von Mises, which has the same collapse load in plane strain. It computes them only on the coarsest mesh."))
     text.append(prose("- FreeFEM has no law of plasticity, so it computes no footings."))
     text += ["", "## Problems, decks and elements", "", prose(scenes.WHAT_IS_COMPARED), "", scenes.problems(), prose(shipped.WHAT_DECKS_ARE), "", shipped.decks(), prose(ELEMENTS), ""]
     return text

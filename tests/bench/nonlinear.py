@@ -36,7 +36,8 @@ class Row:
 
 HEAD = ["varied", "problem", "element", "mesh", "increments", "tolerance", "value", "error", "wall ms", "processor ms", "iterations", "best"]
 COLUMNS = (
-    "*varied* names what the row varies: element and mesh, or only the grading, the increments or the tolerance of the iteration. The default tolerance is 1e-8. An asterisk in the column *best* means that no other row of the same problem is both faster (processor time) and more accurate."
+    "The column *varied* states what differs in the row: `mesh` for element and mesh, or only the grading, the number of increments, or the tolerance of the iteration. The default tolerance is 1e-8. "
+    "An asterisk in the column *best* means that no other row of the same problem has both a shorter processor time and a smaller error."
 )
 
 
@@ -116,8 +117,11 @@ def footing_case(bench, name, varied, rough, element, n, increments=12, toleranc
 
 COLLAPSE_TITLE = "Error against run time: collapse load of a strip footing"
 COLLAPSE_NOTE = (
-    "Value: mean pressure under a rigid strip footing of half width 1 on clay (Tresca, c = 1, E = 298, nu = .49) at a settlement of .15. Error: relative to the exact collapse load, 2 + pi (Prandtl). Mesh: number n of elements (of pairs of triangles) under the half width. "
-    "In a `graded` mesh they get smaller towards the edge of the footing: the vertical lines are at 1 - (1 - s)^2.2 of the half width, s = 0, 1/n, ..., 1. In a `uniform` mesh they are equally wide."
+    "The problem is a rigid strip footing of half width 1 on clay (Tresca, c = 1, E = 298, nu = .49).\n"
+    "\n"
+    "- *value* is the mean pressure at a settlement of .15, and *error* its relative difference from the exact collapse load, 2 + pi (Prandtl).\n"
+    "- *mesh* is the number n of elements, or pairs of triangles, under the half width. In a `graded` mesh they get smaller towards the edge of the footing: "
+    "the vertical lines are at the fractions 1 - (1 - s)^2.2 of the half width, with s = 0, 1/n, ..., 1. In a `uniform` mesh they are equally wide."
 )
 COLLAPSE_OPTIONS = "`sagefe run --element ... --formulation ... --threads N`."
 
@@ -304,23 +308,23 @@ def specimen_cases(bench, name, strains, increments, others):
 # Converged values of this program; how is said in docs/theory/accuracy.md, "Histories".
 RATIO = {0.025: 1.010135, 0.05: 0.99500, 0.1: 1.03678, 0.15: 1.05399}
 HISTORY = {0.025: 1.010135, 0.05: 1.016906, 0.075: 1.022150, 0.1: 1.026410}
-SPECIMEN_MESHES = "Mesh: elements along the radius x elements along half the height."
 SPECIMEN_OPTIONS = "`sagefe run --element ... --formulation ... [--coarsen] --refine k --threads N`."
 
 
 def specimen_note(deck, strains, values, known, source=""):
     """strains: in percent, the last one that of the value.  values: with all their digits.  known: their error."""
     return (
-        f"The deck `{deck}` with other elements, meshes, increments and tolerances. Value: ratio of the measured to the correct deviator stress at an axial strain of {strains[-1]} %. "
-        f"Error: the largest of the four relative errors of this ratio at {', '.join(strains[:-1])} and {strains[-1]} %. The converged ratios there are {', '.join(values)}, known to {known} ([accuracy](theory/accuracy.md)). "
-        + source + SPECIMEN_MESHES
+        f"The deck is `{deck}` with other elements, meshes, increments and tolerances.\n\n"
+        f"- *value* is the ratio of the measured to the correct deviator stress at an axial strain of {strains[-1]} %.{source}\n"
+        f"- *error* is the largest of the four relative errors of this ratio at {', '.join(strains[:-1])} and {strains[-1]} %. The converged ratios at these strains are {', '.join(values)}, known to {known} ([accuracy](theory/accuracy.md)).\n"
+        "- *mesh* is the number of elements along the radius x along half the height."
     )
 
 
 RATIO_TITLE = "Error against run time: Drucker-Prager specimen to 15 %"
 RATIO_NOTE = specimen_note(
     "dp_285", ("2.5", "5", "10", "15"), [f"{v:.5f}" for v in RATIO.values()], "5e-5",
-    "The value 1.167 of the source chapter of these decks is that of the row quad4 full, 14 x 28. ",
+    " The source chapter of these decks has the value 1.167, which is that of the row quad4 full, 14 x 28.",
 )
 HISTORY_TITLE = "Error against run time: elastic specimen on an interface"
 HISTORY_NOTE = specimen_note("friction_285_nu0495", ("2.5", "5", "7.5", "10"), [f"{v:.6f}" for v in HISTORY.values()], "3e-6")

@@ -130,7 +130,10 @@ def find(points, scene, program, variant, mesh):
 
 
 SAME_MESH_TITLE = "The same mesh, all problems"
-SAME_MESH_NOTE = "Wall time of whole processes, with all output of sagefe. A ratio is the time of the other program over that of sagefe on the same cells (FreeFEM divides each cell into two triangles)."
+SAME_MESH_NOTE = (
+    "The times are wall times of whole processes, with all output of sagefe. A ratio is the time of the other program divided by that of sagefe on the same mesh. FreeFEM divides each element of this mesh into two triangles. "
+    "*P1* and similar words in a cell are the element of the other program."
+)
 SAME_MESH_OPTIONS = "`sagefe run --element ... --formulation ... --threads N`."
 SAME_MESH_HEAD = ["problem", "element", "n", "sagefe ms", "error of sagefe", "CalculiX ms", "ratio", "error of CalculiX", "FreeFEM ms", "ratio", "error of FreeFEM"]
 
@@ -153,15 +156,21 @@ def equal_mesh(points):
     return Table(SAME_MESH_TITLE, SAME_MESH_NOTE, SAME_MESH_OPTIONS, SAME_MESH_HEAD, rows)
 
 
-MESHES = (
-    "A mesh is `7`, that is n = 7, or graded. `1, 4 layers` is a mesh with n = 1 that sagefe grades towards singular corners by 4 layers of elements, each 0.15 times as thick as the one before (`--grade auto:4:0.15`). "
-    "`4 x 4, power 3` is a mesh of 4 x 4 cells for the other programs, whose lines are at 1 - (1 - s)^3 of the width and of the height, s = 0, 1/4, 1/2, 3/4, 1. These meshes have the powers 3, 4 and 5."
-)
 SAME_ERROR_TITLE = "The same error"
 SAME_ERROR_NOTE = (
-    "For each problem and each limit of the error, the fastest run of each program whose error is within the limit. Times are wall times of whole processes, and a ratio is the time of the other program over that of sagefe. If no run reaches the limit, the cell has the smallest error of the program and the time of that run in milliseconds.\n\n"
-    + MESHES + "\n\n"
-    "FreeFEM has such graded meshes for the pinned specimens and Cook's membrane, CalculiX for the pinned specimens only. All meshes of footings get smaller towards the edge of the footing. `lame` has no singular corner, so its meshes are uniform."
+    "For each problem and each limit of the error, the table has the fastest run of each program whose error is within the limit. "
+    "Times are wall times of whole processes, and a ratio is the time of the other program divided by that of sagefe. "
+    "If no run reaches the limit, the cell has the smallest error of the program and the time of that run in milliseconds.\n"
+    "\n"
+    "Meshes have these names:\n"
+    "\n"
+    "- `7` is the uniform mesh with n = 7.\n"
+    "- `1, 4 layers` is a mesh with n = 1 that sagefe grades towards singular corners. It has 4 layers of elements, each 0.15 times as thick as the one before (`--grade auto:4:0.15`).\n"
+    "- `4 x 4, power 3` is a graded mesh of the other programs with 4 x 4 cells. Its lines are at the fractions 1 - (1 - s)^3 of the width and of the height, with s = 0, 1/4, 1/2, 3/4, 1. "
+    "There are such meshes with the powers 3, 4 and 5.\n"
+    "\n"
+    "FreeFEM has graded meshes for the pinned specimens and Cook's membrane, CalculiX for the pinned specimens only. In all meshes of footings the elements get smaller towards the edge of the footing. "
+    "`lame_nu4999999` has no singular corner, so its meshes are uniform."
 )
 SAME_ERROR_OPTIONS = "`sagefe run --element ... [--formulation ...] [--grade auto:LAYERS:0.15] --threads N`."
 SAME_ERROR_HEAD = ["problem", "error at most", "sagefe ms", "element and mesh of sagefe", "CalculiX ms (element, mesh)", "ratio", "FreeFEM ms (element, mesh)", "ratio"]
@@ -237,9 +246,13 @@ def fresh_graded_points(bench, scene):
 
 GRADED_TITLE = "The same error, graded meshes of all programs"
 GRADED_NOTE = (
-    "Pinned specimens on graded meshes, with dolfinx: for each limit of the error, the fastest run of each program within it, with the best element and number of cells or layers. The lines of the meshes of dolfinx are at 1 - (1 - s)^p, with p = 3 for Q2, 4 for Q4 and 5 for Q6; those of CalculiX and FreeFEM have p = 3, 4 and 5.\n\n"
-    "*error of* names the value whose relative error is limited: the ratio, or the effect of the rough ends, which is ratio - 1. The effect is .018 to .19, so the same accuracy of the ratio is a much larger relative error of the effect.\n\n"
-    "Times are processor times in milliseconds, of whole processes of sagefe, CalculiX and FreeFEM. The time of dolfinx is that from the mesh to the answer, without the start of Python, imports and compilation; the last column compares it with the whole process of sagefe."
+    "This table includes dolfinx. It has the pinned specimens on graded meshes. For each limit of the error it shows the fastest run of each program, with the best element and number of cells or layers. "
+    "The mesh lines of dolfinx are at the fractions 1 - (1 - s)^p, with p = 3 for Q2, 4 for Q4 and 5 for Q6; those of CalculiX and FreeFEM have p = 3, 4 and 5.\n"
+    "\n"
+    "The column *error of* names the value whose relative error is limited. It is the ratio, or the *effect* of the rough ends, which is ratio - 1. The effect is only .018 to .19, so a limit on its relative error is stricter.\n"
+    "\n"
+    "Times are processor times in milliseconds, of whole processes of sagefe, CalculiX and FreeFEM. The time of dolfinx is that from the mesh to the answer, without the start of Python, imports and compilation; "
+    "the last column compares it with the whole process of sagefe."
 )
 GRADED_OPTIONS = "`sagefe run --element quad25|quad49 --grade auto:LAYERS:0.15 --threads N`."
 GRADED_HEAD = [
@@ -274,7 +287,9 @@ def graded_row(name, measure, target, within):
 
 
 SOLVERS_TITLE = "Solvers"
-SOLVERS_NOTE = "Wall time of the whole process in milliseconds for each [solver](theory/solvers.md): problem `pinned_ld2_nu495`, n x 2n quad8 reduced."
+SOLVERS_NOTE = (
+    "The table has the wall time of the whole process in milliseconds for each [solver](theory/solvers.md). The problem is `pinned_ld2_nu495` on n x 2n quad8 reduced."
+)
 SOLVERS_OPTIONS = "`sagefe run --element quad8 --formulation 1 --solver NAME --threads N`."
 
 
