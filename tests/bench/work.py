@@ -17,14 +17,13 @@ from specimen import ROOT, card
 
 # ------------------------------------------------------------------------------------------------- laws and elements
 
-POINTS = 3000  # from here on sagefe assembles on all threads
-STEPS = 20
+STEPS = 8
 PHI = str(specimen.FRICTION)
 # Name of a law, its code and parameters for the triaxial specimen, and more options of the run.
 LAWS = {
     "linear elastic": ("1", ("3000.", ".3")),
     "Drucker-Prager": ("3", ("3000.", ".3", "1.", "30.", "0.", "1.", "1.", "-1.")),
-    "Mohr-Coulomb": ("4", ("3000.", ".3", "1.", "30.", "0.")),
+    "Mohr-Coulomb": ("4", ("3000.", ".3", "1.", "30.", "30.")),
     "UMAT, Drucker-Prager": ("100", ("4.", "0.", "0.", "1.", "3000.", ".3", "1.", "30.")),
 }
 ELEMENTS = {"quad4 b-bar": ["--formulation", "2"], "quad8 reduced": ["--element", "quad8", "--formulation", "1"], "quad9": ["--element", "quad9"]}
@@ -41,7 +40,7 @@ def specimen_of(law, n):
         card(1, 0, "50.", "50.", "50."),
         "Axial compression",
         card(STEPS, 0, 0, 0, 1, 0, 1, 0, 0, 0),
-        card(top, top + n, 1, 1, 1, "0.", "-0.3"),
+        card(top, top + n, 1, 1, 1, "0.", "-0.2"),
         card(n, 2, 2 * n * n, n, "50.", "50."),
         card(1, 1, top, top + n, 1, 1, "2.8", "", "50."),
     ]
@@ -87,7 +86,6 @@ ASSEMBLY_HEAD = ["case", "element", "points", "passes", "assembly s, one thread"
 def cases(bench):
     """(case, element, job)"""
     (bench.folder / "specimen.toml").write_text(specimen.wide_layout())
-    n = 6 if bench.args.quick else 40
     library = umat(bench)
     common = ["--layout", "specimen.toml", "-o", "out", "--threads", "1"]
     for element, options in list(ELEMENTS.items())[: 1 if bench.args.quick else None]:
@@ -96,10 +94,11 @@ def cases(bench):
                 bench.notes.append("UMAT: gfortran is not installed")
                 continue
             stem = re.sub(r"\W+", "_", f"assembly_{law}_{element}")
+            n = 6 if bench.args.quick else 28 if element.startswith("quad4") else 20  # above the limit for threads
             (bench.folder / f"{stem}.dat").write_text(specimen_of(law, n))
             more = ["--umat", library] if law.startswith("UMAT") else ["--without", "all"] if law.startswith("linear") else []
             yield law, element, Job((stem,), [bench.sagefe, "run", f"{stem}.dat", *common, *options, *more], lambda text: 0.0)
-    columns = 14 if bench.args.quick else 80
+    columns = 14 if bench.args.quick else 56
     (bench.folder / "assembly_dam.dat").write_text(dam(columns, 2 * columns))
     yield "seepage with a free surface", "quad4", Job(("dam",), [bench.sagefe, "run", "assembly_dam.dat", *common], lambda text: 0.0)
     if not bench.args.quick:
