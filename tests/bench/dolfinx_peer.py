@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
 """The pinned specimen of the benchmark in dolfinx with MUMPS; run by peers.py with the interpreter that has dolfinx.
 
-Usage: dolfinx_peer.py linear N [--rows M] [--degree P] [--power G] [--nu NU] [--slenderness S] [--repeats R]
+Usage: dolfinx_peer.py linear N [--rows M] [--degree P] [--power G | --ratios A B] [--nu NU] [--slenderness S] [--solver mumps|cg]
+       [--tolerance T] [--repeats R]
        dolfinx_peer.py plastic N [--steps 60] [--solver mumps|petsc] [--repeats R]
 --once: no warm-up before a single pass, for the time of a whole process that finds its forms compiled.
 N x M quadrilaterals of degree P (default: N x 2 N of degree 1), finer towards the corner of the end as the power G of the place.
+--ratios: the last interval over the first along the radius and along the height, in geometric progression.
+--solver cg: conjugate gradients with algebraic multigrid (BoomerAMG of hypre, nodal systems, three rigid-body modes as near-null
+space), until the preconditioned residual has fallen by the factor of --tolerance.
 Prints one JSON line: the ratio, and of every repeat the wall and processor seconds from the first node of the mesh to the answer.
 
 What is counted: mesh, spaces, constraints, pattern, assembly, analysis, factorisation, solution, reaction.  What is not: the start of Python,
@@ -54,13 +58,23 @@ class Watch:
         return made
 
 
-def specimen(columns, rows, height, degree=1, power=1):
+def places(intervals, ratio):
+    """Of the lines of a mesh in [0, 1], whose intervals are a geometric progression."""
+    widths = ratio ** (np.arange(intervals) / max(1, intervals - 1))
+    return np.concatenate([[0.0], np.cumsum(widths) / widths.sum()])
+
+
+def specimen(columns, rows, height, degree=1, power=1, ratios=None):
     corners = [np.array([0.0, 0.0]), np.array([RADIUS, height])]
     body = mesh.create_rectangle(MPI.COMM_SELF, corners, [columns, rows], mesh.CellType.quadrilateral)
     if power != 1:
         x = body.geometry.x
         for k, length in enumerate((RADIUS, height)):
             x[:, k] = length * (1 - (1 - x[:, k] / length) ** power)
+    if ratios:
+        x = body.geometry.x
+        for k, (length, intervals, ratio) in enumerate(((RADIUS, columns, ratios[0]), (height, rows, ratios[1]))):
+            x[:, k] = length * places(intervals, ratio)[np.rint(x[:, k] / length * intervals).astype(int)]
     return body, fem.VectorFunctionSpace(body, ("Lagrange", degree))
 
 
@@ -108,10 +122,49 @@ def direct(matrix, symmetric, package="mumps"):
     return solver
 
 
+def rigid_bodies(space):
+    """Two translations and a rotation, orthonormal."""
+    x = space.tabulate_dof_coordinates()
+    modes = [PETSc.Vec().createSeq(2 * len(x)) for _ in range(3)]
+    for mode, (horizontal, vertical) in zip(modes, ((1.0, 0.0), (0.0, 1.0), (-x[:, 1], x[:, 0]))):
+        mode.array[0::2], mode.array[1::2] = horizontal, vertical
+    basis = []
+    for mode in modes:
+        for other in basis:
+            mode.axpy(-mode.dot(other), other)
+        mode.scale(1 / mode.norm())
+        basis.append(mode)
+    return PETSc.NullSpace().create(vectors=basis)
+
+
+def iterative(matrix, space, args):
+    """Conjugate gradients with algebraic multigrid."""
+    matrix.setBlockSize(2)
+    matrix.setOption(PETSc.Mat.Option.SYMMETRIC, True)
+    matrix.setOption(PETSc.Mat.Option.SPD, True)
+    matrix.setNearNullSpace(rigid_bodies(space))
+    solver = PETSc.KSP().create(MPI.COMM_SELF)
+    solver.setType("cg")
+    solver.setOperators(matrix)
+    solver.setTolerances(rtol=args.tolerance, max_it=2000)
+    solver.getPC().setType(args.multigrid)
+    options = PETSc.Options()
+    if args.multigrid == "hypre":
+        solver.getPC().setHYPREType("boomeramg")
+        options["pc_hypre_boomeramg_nodal_coarsen"] = 6
+        options["pc_hypre_boomeramg_vec_interp_variant"] = 3
+        options["pc_hypre_boomeramg_strong_threshold"] = 0.5
+    else:
+        options["mg_levels_ksp_type"] = "chebyshev"
+        options["mg_levels_pc_type"] = "jacobi"
+    solver.setFromOptions()
+    return solver
+
+
 def linear(watch, args, columns, rows, young=3000.0, axial=0.01):
     """Ratio of the mean end stress to that of a free end."""
     nu, height = args.nu, RADIUS * args.slenderness
-    body, space = specimen(columns, rows, height, args.degree, args.power)
+    body, space = specimen(columns, rows, height, args.degree, args.power, args.ratios)
     r = ufl.SpatialCoordinate(body)[0]
     u, v = ufl.TrialFunction(space), ufl.TestFunction(space)
     mu, lam = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
@@ -130,13 +183,16 @@ def linear(watch, args, columns, rows, young=3000.0, axial=0.01):
     petsc.apply_lifting(b, [a], [conditions])
     petsc.set_bc(b, conditions)
     answer = fem.Function(space)
-    solver = direct(matrix, True)
+    solver = iterative(matrix, space, args) if args.solver == "cg" else direct(matrix, True)
     solver.solve(b, answer.vector)
+    iterations = solver.getIterationNumber()
+    if solver.getConvergedReason() < 0:
+        raise SystemExit(f"no convergence in {iterations} iterations")
     # The reaction does all the work: force times displacement is a(u, u).
     work = fem.assemble_scalar(watch.compiled(fem.form, ufl.inner(stress(answer), strain(answer, r)) * weight * dx))
     for thing in (solver, matrix, b):
         thing.destroy()
-    return work / (axial * height) / (math.pi * RADIUS**2) / (young * axial), 1
+    return work / (axial * height) / (math.pi * RADIUS**2) / (young * axial), iterations
 
 
 def plastic(watch, args, columns, rows, young=3000.0, nu=0.495, axial=0.15, friction=36.87, cohesion=0.0, tolerance=1e-8):
@@ -184,8 +240,8 @@ def plastic(watch, args, columns, rows, young=3000.0, nu=0.495, axial=0.15, fric
     inner_forces = watch.compiled(fem.form, ufl.inner(stress, strain(v, r)) * weight * dx + side)
     tangent = watch.compiled(fem.form, ufl.inner(choose(elastic(e), cone, apex), strain(v, r)) * weight * dx)
     flat = ufl.as_vector([stress[0, 0], stress[1, 1], stress[2, 2], stress[0, 1]])
-    places, _ = basix.make_quadrature(basix.CellType.quadrilateral, 2)
-    after = watch.compiled(fem.Expression, flat, places)
+    points_in_cell, _ = basix.make_quadrature(basix.CellType.quadrilateral, 2)
+    after = watch.compiled(fem.Expression, flat, points_in_cell)
     cells = np.arange(body.topology.index_map(2).size_local, dtype=np.int32)
     slots = (4 * states.dofmap.list.array.astype(np.int64)[:, None] + np.arange(4)).ravel()
 
@@ -242,7 +298,10 @@ def main():
     parser.add_argument("--nu", type=float, default=0.25)
     parser.add_argument("--slenderness", type=float, default=2)
     parser.add_argument("--steps", type=int, default=60)
-    parser.add_argument("--solver", default="mumps", choices=["mumps", "petsc"])
+    parser.add_argument("--solver", default="mumps", choices=["mumps", "petsc", "cg"])
+    parser.add_argument("--multigrid", default="gamg", choices=["gamg", "hypre"])
+    parser.add_argument("--tolerance", type=float, default=1e-8, help="of --solver cg")
+    parser.add_argument("--ratios", type=float, nargs=2)
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--once", action="store_true")
     args = parser.parse_args()

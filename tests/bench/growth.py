@@ -22,15 +22,21 @@ PHASES = {
 }
 TOO_LONG = 40.0  # seconds: no larger mesh is begun
 COLUMNS = (
-    "The exponent is e in time = constant x unknowns^e. The column *exponent* has it for the wall time, from the row above to this row. The last row has it for each column, by least squares over the larger half of the problems. *wall s, all threads* is the wall time on all processors of the machine. "
-    "The phases from *read, model* to *output* and the speed of the factorisation are those of one further run with `--profile`. They are not medians, so their sum may exceed the wall time of the row. *MB* is the largest memory of the process."
+    "- The exponent is e in time = constant x unknowns^e. The column *exponent* has the value for the wall time, computed from a row and the row above it. "
+    "The last row has the value for each column, by least squares over the larger half of the problems.\n"
+    "- *wall s, all threads* is the wall time in seconds on all processors of the machine.\n"
+    "- The columns from *read, model* to *output* are the times of the phases, from one further run with `--profile`. They are not medians, so their sum may exceed the wall time of the row.\n"
+    "- *factor GF/s* is the speed of the factorisation in that run, and *% of DGEMM* the same as a percentage of the speed of matrix products on this machine.\n"
+    "- *MB* is the largest memory of the process."
 )
 SCALING_TITLE = "Run time against size: linear specimen"
-SCALING_NOTE = "Problem `pinned_ld2_nu25` on n x 2n quad4 full, in one increment, with all output."
+SCALING_NOTE = (
+    "The problem is `pinned_ld2_nu25` on n x 2n quad4 full, in one increment, with all output."
+)
 INTERFACE_TITLE = "Run time against size: elastic specimen on an interface"
 INTERFACE_NOTE = (
-    "The deck `friction_285_nu0495` with `--refine k`: an elastic specimen of n x 2n quad4 with n = 14 2^k under a rigid platen on a hyperbolic interface, in 40 increments, with all output. "
-    "The last column is the wall time over that of the linear specimen of the table above on the same mesh. The linear specimen was measured again for it, in turn with this deck, so the ratio does not follow from the two tables."
+    "The deck is `friction_285_nu0495` with `--refine k`. It is an elastic specimen of n x 2n quad4 with n = 14 2^k under a rigid platen on a hyperbolic interface, in 40 increments, with all output. "
+    "The last column is the wall time divided by that of the linear specimen of the table above on the same mesh. For this column both were measured in alternating runs, so it does not follow from the two tables."
 )
 INTERFACE_BESIDE = "over linear specimen"
 FOOTING_TITLE = "Run time against size: Mohr-Coulomb footing"
@@ -39,7 +45,10 @@ FOOTING_TITLE = "Run time against size: Mohr-Coulomb footing"
 def footing_note(collapse_load, differences):
     """differences: {n: relative error}"""
     words = ", ".join(f"{error:.1%} for n = {n}" for n, error in differences.items())
-    return f"Rough rigid strip footing on weightless Mohr-Coulomb ground with phi = psi = 20 degrees and c = 1, n quad4 b-bar under its half width, in 12 increments, with all output. The exact collapse load is {collapse_load:.5g} c. The computed one differs from it by {words}."
+    return (
+        "The problem is a rough rigid strip footing on weightless Mohr-Coulomb ground with phi = psi = 20 degrees and c = 1. There are n quad4 b-bar under its half width. The run has 12 increments and writes all output. "
+        f"The exact collapse load is {collapse_load:.5g} c. The computed one differs from it by {words}."
+    )
 
 
 def flat(phase, into):

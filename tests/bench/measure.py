@@ -147,6 +147,17 @@ def machine():
     return f"{os.cpu_count()} x {model.group(1) if model else platform.machine()}, {int(memory.group(1)) / 2**20:.0f} GB, {system}"
 
 
+def commit():
+    """Of the source tree that holds the benchmark; `unknown` outside of git."""
+    git = lambda *words: subprocess.run(["git", *words], capture_output=True, text=True, cwd=pathlib.Path(__file__).parent)
+    try:
+        found = git("rev-parse", "--short=8", "HEAD")
+        changed = git("status", "--porcelain", "--untracked-files=no", ":/sage", ":/materials", ":/elements", ":/solvers")
+    except OSError:
+        return "unknown"
+    return found.stdout.strip() + (" with changes" if changed.stdout.strip() else "") if found.returncode == 0 else "unknown"
+
+
 # ----------------------------------------------------------------------------------------- tables
 
 

@@ -13,7 +13,7 @@ import nonlinear as nonlinear_tables
 import scenes
 
 # Tables of error against run time, and those of run time against size, by the name of their CSV file.
-NONLINEAR = {"collapse": nonlinear_tables.COLLAPSE_TITLE, "ratio": nonlinear_tables.RATIO_TITLE, "history": nonlinear_tables.HISTORY_TITLE}
+NONLINEAR = {"collapse": nonlinear_tables.COLLAPSE_TITLE, "safety": nonlinear_tables.SAFETY_TITLE, "moment": nonlinear_tables.MOMENT_TITLE, "ratio": nonlinear_tables.RATIO_TITLE, "history": nonlinear_tables.HISTORY_TITLE}
 GROWTH = {"scaling": growth_tables.SCALING_TITLE, "interface": growth_tables.INTERFACE_TITLE, "footing": growth_tables.FOOTING_TITLE}
 
 
@@ -60,6 +60,37 @@ def growth(key, rows):
     yield GROWTH[key], f"{key}.svg", GROWTH[key], "unknowns", "s", sorted(series, key=lambda s: s[2])
 
 
+def front(points):
+    """Of (seconds, error), those than which no other is both faster and more accurate."""
+    found = []
+    for seconds, error in sorted(points):
+        if not found or error < found[-1][1]:
+            found.append((seconds, error))
+    return found
+
+
+def overview(folder):
+    """The three charts at the head of the page: time against size, error against time, and that of a nonlinear answer."""
+    tables = {key: rows_of(folder / f"{key}.csv") for key in ("linear", "precision", "collapse") if (folder / f"{key}.csv").exists()}
+    programs = ("sagefe", "CalculiX CAX4", "FreeFEM P1", "dolfinx Q1", "dolfinx, mesh to answer")
+    series = []
+    for name in programs:
+        points = [(float(row["unknowns"]), 1e-3 * float(row[name].split(" / ")[0])) for row in tables.get("linear", []) if row[name] != "-"]
+        series.append((name, points, name != "sagefe"))
+    yield "Time against size", "overview_size.svg", "Linear specimen on the same mesh", "unknowns", "wall time, s", series
+    by_program = {}
+    for row in tables.get("precision", []):
+        if row["scene"] == "pinned_ld2_nu495":
+            by_program.setdefault(row["program"], []).append((float(row["seconds"]), float(row["error"])))
+    series = [(name, front(points), name != "sagefe") for name, points in by_program.items()]
+    yield "Error against time", "overview_error.svg", "Pinned specimen, nu = .495: the best meshes of each program", "wall time, s", "relative error", series
+    by_element = {}
+    for row in tables.get("collapse", []):
+        if row["varied"] == "mesh" and row["problem"] == "smooth strip":
+            by_element.setdefault(row["element"], []).append((1e-3 * float(row["wall ms"]), float(row["error"])))
+    yield "Error of a collapse load against time", "overview_collapse.svg", "Collapse load of a smooth strip footing", "wall time, s", "relative error", [(name, points, False) for name, points in by_element.items()]
+
+
 def charts(folder):
     """(table, title, file, heading, x label, y label, series) of every table that the folder has."""
     makers = {"precision": precision}
@@ -70,6 +101,8 @@ def charts(folder):
         if file.exists():
             for found in make(rows_of(file)):
                 yield (key, *found)
+    for found in overview(folder):
+        yield ("overview", *found)
 
 
 def draw(folder, out):

@@ -65,10 +65,13 @@ def linear_row(n, dofs, own, bare, whole, inside, exponent):
 
 LINEAR_TITLE = "The same mesh, linear problem, small to large"
 LINEAR_NOTE = (
-    "Problem `pinned_ld2_nu25` on n x 2n quad4 full. A cell has wall / processor time in milliseconds, with all output, except in the column *no listing* (`--no-listing`).\n\n"
-    "dolfinx has the same elements and integration points, and its ratio agrees with that of sagefe to 1e-7; otherwise the benchmark fails. It solves with MUMPS in its symmetric mode, with METIS. Its forms are compiled before the measurement. Most of its process is the start of Python and imports. "
-    "The column *mesh to answer* has the time within its process after them. The last ratios compare that time with whole processes of sagefe, which include start, input and output.\n\n"
-    "The exponent is e in processor time = constant x unknowns^e, from the row above to this row."
+    "The problem is `pinned_ld2_nu25` on n x 2n quad4 full. A cell has the wall time / the processor time in milliseconds. The runs write all output, except that those of the column *no listing* have the option `--no-listing`.\n"
+    "\n"
+    "dolfinx has the same elements and integration points, and its ratio agrees with that of sagefe to 1e-7; otherwise the benchmark fails. It solves with MUMPS in its symmetric mode, with METIS. "
+    "Its forms are compiled before the measurement. Most of the time of its process is the start of Python and imports. The column *mesh to answer* therefore has only the time after the imports. "
+    "The two columns *dolfinx, mesh to answer, over sagefe* and *the same over sagefe, no listing* divide this time by that of whole processes of sagefe, which include start, input and output.\n"
+    "\n"
+    "The *exponent* is e in processor time = constant x unknowns^e, computed from a row and the row above it."
 )
 LINEAR_OPTIONS = "`sagefe run --threads N`."
 LINEAR_HEAD = [
@@ -106,11 +109,14 @@ def plastic_jobs(bench, n):
 
 PLASTIC_TITLE = "The same mesh, Drucker-Prager"
 PLASTIC_NOTE = (
-    "The specimen of the table above with the Drucker-Prager law of `dp_285` (phi = 36.87 degrees, c = 0, flow without volume change, nu = .495) at a cell pressure of 50 psi, to 15 % in "
-    f"{specimen.STEPS} increments. Its ratio is the measured over the correct deviator stress at 15 %. A cell has wall / processor time in milliseconds.\n\n"
-    "The program for dolfinx has the same law, return and consistent tangent, in kernels compiled for this processor. Its ratio agrees with that of sagefe to 1e-6; otherwise the benchmark fails. Its time is that from the mesh to the answer, with MUMPS or PETSc's own LU, whichever is faster. "
-    "The time of sagefe is that of the whole process with all output. In both programs the iteration of an increment starts from the displacement increment of the increment before. dolfinx factorises in every iteration; some iterations of sagefe use the factors of an earlier one.\n\n"
-    "The column *processor time per iteration* has the same ratio of the processor times, each divided by its number of iterations. The exponent is that of the table above."
+    "The specimen is that of the table above, with the Drucker-Prager law of `dp_285` (phi = 36.87 degrees, c = 0, flow without volume change, nu = .495). "
+    "The cell pressure is 50 psi, and the axial strain increases to 15 % in 60 increments. The ratio is the measured deviator stress at 15 %, divided by the correct one. A cell has the wall time / the processor time in milliseconds.\n"
+    "\n"
+    "The program for dolfinx has the same law, return and consistent tangent, in kernels compiled for this processor. Its ratio agrees with that of sagefe to 1e-6; otherwise the benchmark fails. "
+    "Its time is that from the mesh to the answer, with MUMPS or PETSc's own LU, whichever is faster. The time of sagefe is that of the whole process with all output. "
+    "In both programs the iteration starts from the displacement increment of the previous increment. dolfinx factorises in every iteration; some iterations of sagefe use the factors of an earlier one.\n"
+    "\n"
+    "For the column *processor time per iteration*, the processor time of each program is divided by its number of iterations. The exponent is defined as in the table above."
 )
 PLASTIC_OPTIONS = "`sagefe run --threads N`."
 PLASTIC_HEAD = [

@@ -284,7 +284,8 @@ def footing(geometry, rough, reference, law=(4, (298.0, 0.49, 1.0, 0.0, 0.0)), p
 
 
 WHAT_IS_COMPARED = (
-    "An error is the relative error of one result, |value / reference - 1|. A mesh of quadrilaterals is named by n. The *ratio* of a pinned specimen is the mean stress on its end over that of a specimen with free ends."
+    "Each problem has one result. Its error is the relative error |value / reference - 1|. The number n gives the size of the elements. "
+    "The *ratio* of a pinned specimen is the mean stress on its rough ends, divided by that of a specimen with smooth ends."
 )
 
 

@@ -22,8 +22,9 @@ def card(*fields):
     return "".join(f"{f:10d}" if isinstance(f, int) else f"{f:>10}" for f in fields)
 
 
-def cards(n, title, material, stage, stresses):
-    """material: its cards; stage: the cards from its title on; stresses: number of initial-stress cards in front of it."""
+def cards(n, title, material, stage, stresses, ratios=()):
+    """material: its cards; stage: the cards from its title on; stresses: number of initial-stress cards in front of it;
+    ratios: last interval over the first, along the radius and the height."""
     across, rows = n + 1, 2 * n
     top = across * rows + 1
     return "\n".join(
@@ -35,7 +36,7 @@ def cards(n, title, material, stage, stresses):
             card(across, 0, 0, "1.4", "0."),
             card(top, 0, 0, "0.", "2.8"),
             card(top + n, 0, 0, "1.4", "2.8"),
-            card(1, n, 1, rows, across),
+            card(1, n, 1, rows, across, *(str(float(ratio)) for ratio in ratios)),
             *material,
             card(1, 1, 1, 1) + "specimen",
             card(1, 1, 1, 2, across + 2, across + 1, 0, 0, 0, 0, n, rows, 1, across),
@@ -48,7 +49,7 @@ def cards(n, title, material, stage, stresses):
     )
 
 
-def elastic(n):
+def elastic(n, ratios=()):
     top = (n + 1) * 2 * n + 1
     stage = [
         "Axial compression of 1 % with the end held radially",
@@ -57,7 +58,7 @@ def elastic(n):
         card(1, 1, top, top + n, 1, 1, "2.8", "", "0."),
     ]
     material = [card(1, 1, 2) + "          elastic specimen", "     3000.       .25"]
-    return cards(n, "Pinned ends, L/D = 2, nu = .25", material, stage, 0)
+    return cards(n, "Pinned ends, L/D = 2, nu = .25", material, stage, 0, ratios)
 
 
 def plastic(n, steps=STEPS):
