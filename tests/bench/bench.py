@@ -23,6 +23,7 @@ import sys
 import tempfile
 import textwrap
 import time
+import traceback
 
 import check
 import general
@@ -90,8 +91,8 @@ def with_threads(options, threads, runs):
     return f"{options.replace('--threads N', f'--threads {threads}')} All programs and their libraries use {every}. {words}"
 
 
-def run_parts(bench, names):
-    """{key: what tables.json keeps of a table}"""
+def run_parts(bench, names, keep):
+    """{key: what tables.json keeps of a table}.  keep: called with those of each part; a part that fails costs no other one."""
     found = {}
     peak = measure.dgemm(bench.args.threads)
     bench.dgemm = peak
@@ -99,12 +100,18 @@ def run_parts(bench, names):
     for name in names:
         start = time.perf_counter()
         bench.notes = []
-        tables = PARTS[name](bench)
+        try:
+            tables = PARTS[name](bench)
+        except Exception as error:
+            traceback.print_exc()
+            bench.wrong.append(f"{name}: {error}")
+            continue
         for key, table in tables.items():
             found[key] = dataclasses.asdict(table)
             options = with_threads(table.options, bench.args.threads, table.runs or bench.args.runs)
             found[key].update(part=name, options=options, notes=[], charts=[], machine=measure.machine(), dgemm=peak, date=date, commit=commit)
         found[list(tables)[-1]]["notes"] = bench.notes
+        keep({key: found[key] for key in tables})
         print(f"  {name}: {time.perf_counter() - start:.0f} s", file=sys.stderr, flush=True)
     return found
 
@@ -228,8 +235,8 @@ def main():
         return
     with tempfile.TemporaryDirectory() as name:
         bench = Bench(args, pathlib.Path(name), out / "benchmarks")
-        found = run_parts(bench, [part for part in PARTS if part in args.only])
-        write(out, found, peers.versions())
+        versions = peers.versions()
+        found = run_parts(bench, [part for part in PARTS if part in args.only], lambda tables: write(out, tables, versions))
     print(f"{out / 'benchmarks.md'}: {len(found)} tables")
     notes = [note for table in found.values() for note in table["notes"]]
     if bench.wrong or (args.quick and notes):
