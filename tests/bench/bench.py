@@ -119,7 +119,8 @@ def run_parts(bench, names, keep):
 def prose(words):
     """In lines of 100 columns; code in `...` is not broken, and a list item goes on below its text."""
     whole = re.sub(r"`[^`]*`", lambda code: code.group().replace(" ", "\0"), words)
-    return textwrap.fill(whole, 100, subsequent_indent="  " * words.startswith("- "), break_long_words=False, break_on_hyphens=False).replace("\0", " ")
+    indent = " " * len(re.match(r"( *- )?", words).group())
+    return textwrap.fill(whole, 100, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False).replace("\0", " ")
 
 
 INTRODUCTION = (
@@ -142,7 +143,7 @@ ELEMENTS = (
 
 
 def header(kept, versions, overview):
-    text = ["# Benchmarks: run time against error", "", *head.sources(kept), ""]
+    text = ["# Benchmarks: run time against error", "", *map(prose, head.sources(kept)), ""]
     text += [line for words in head.sentences(kept) for line in (prose(f"- {words}"),)] + [""]
     text += [f"![{title}](benchmarks/{name})" for title, name in overview] + [""] * bool(overview)
     text += [*(line for part in INTRODUCTION.split("\n\n") for line in (prose(part), "")), "## How the times were measured", "", prose(MEASURED), ""]

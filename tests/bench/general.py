@@ -12,7 +12,7 @@ LEFT = 1e-5  # the error that it may leave in the ratio
 TITLE = "Linear problem without equal elements"
 NOTE = (
     "The specimen of the problem `pinned_ld2_nu25` on n x 2n quad4 full. The lines of the mesh get wider along the radius (last interval 3 times the first) and narrower along the height (.5 times), in geometric progression, so no two elements are equal. "
-    "sagefe therefore computes the stiffness of each element, and its solver finds no repeated substructures.\n\n"
+    "So sagefe computes the stiffness of each element, and its solver finds no repeated substructures.\n\n"
     "dolfinx has the same mesh, elements and integration points. Its ratio with MUMPS agrees with that of sagefe to 1e-7; otherwise the benchmark fails. The columns *CG* have conjugate gradients with algebraic multigrid of PETSc (GAMG, smoothed aggregation, with two translations and a rotation as near-null space). "
     f"The iteration ends when the preconditioned residual has fallen by the factor {TOLERANCE:g}. *error of CG* is the relative difference of its ratio from that of MUMPS.\n\n"
     "Times in seconds are processor times, except in the columns *wall*. Those of sagefe are of the whole process with all output, those of dolfinx from the mesh to the answer. *MB* is the largest memory of the process; that of dolfinx includes Python. Ratios divide processor times."
