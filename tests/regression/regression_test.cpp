@@ -321,8 +321,10 @@ void add_rows(Page& page, const std::vector<Expected>& rows, const std::vector<d
   const std::string count = std::to_string(rows.size()) + " printed numbers, ";
   if (rows.size() > kMostRows && exact + 2 >= rows.size())
     return page.prose(count +
-                      "all of them equal here to the last printed digit (one unit where the fifth is a 5).");
-  page.prose(count + "of which " + std::to_string(exact) + " are equal here to the last printed digit.");
+                      "all of them equal here to the last printed digit, except at most two that round to the "
+                      "neighbouring digit.");
+  page.prose(count + "and the number of those that are equal here to the last printed digit is " +
+             std::to_string(exact) + ".");
   page.table({"quantity", "stage", "increment", "printed", "here", "difference", "from"});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Expected& row = rows[i];
@@ -341,12 +343,13 @@ std::string textbook_page() {
       "Decks and printed results of Smith and Griffiths, *Programming the Finite Element Method*, 5th edition "
       "(`legacy_inputs/smith_griffiths`), run under the layouts `sg_*`. Each table is in `STEM.expected.csv` "
       "too, with "
-      "the tolerance of the regression tests. Quantities: `node.NUMBER.column` and "
-      "`point.ELEMENT.POINT.column` of the "
-      "result tables, `step` the increment of a value, `strength.ROW` the table of strength factors, "
-      "`load_factor` the "
-      "part of the last stage that found equilibrium, `report1` forces on the moved nodes. The reasons for "
-      "differences "
+      "the tolerance of the regression tests. The quantities `node.NUMBER.column` and "
+      "`point.ELEMENT.POINT.column` are values of the result tables. `step.NUMBER.column` is the change of a "
+      "nodal value in the increment. `strength.ROW.largest` is the largest displacement in a row of the table "
+      "of strength factors, and `report1.column` a value of the first report. `front.FIRST.LAST` is the "
+      "horizontal force that follows from the stresses at the left points of these elements. "
+      "`moment_x.FIRST.LAST` is the moment of the horizontal reactions of these nodes about y = 0. The reasons "
+      "for differences "
       "were found by running the book's own iterations on the same mesh and points "
       "(`tests/verification/textbook_test.cpp`).");
   for (const std::string& name : cases()) {
