@@ -56,7 +56,7 @@ inline Four root(const Four& x) {
 // Those of double (exp_and_log.hpp), to rounding.  A value does not depend on those beside it.
 inline Four exp_less_1(const Four& x) {
   const Four size = abs_of_four(x);
-  const FourMask near = size < everywhere<Four>(0.3);
+  const FourMask near = size < all_four(0.3);
   const Four y = near ? x : 0.25 * x;
   Four less = 1.0 / 40320 + y * (1.0 / 362880 + y * (1.0 / 3628800 + y * (1.0 / 39916800 + y / 479001600.0)));
   less = 1.0 / 24 + y * (1.0 / 120 + y * (1.0 / 720 + y * (1.0 / 5040 + y * less)));
@@ -71,7 +71,7 @@ inline Four exp_less_1(const Four& x) {
 
 inline Four log_1_plus(const Four& x) {
   Four w = x / (2.0 + x);
-  const FourMask near = w * w < everywhere<Four>(0.045);
+  const FourMask near = w * w < all_four(0.045);
   if (!holds_everywhere(near)) {
     const Four of_root = x / (1.0 + root(1.0 + x)),
                of_fourth = of_root / (1.0 + root(1.0 + of_root));  // less 1

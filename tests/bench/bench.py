@@ -6,7 +6,7 @@ Usage: bench.py SAGEFE [-o FOLDER] [--only TABLE,...] [--runs N] [--largest N] [
        bench.py SAGEFE --check        name the ratios that moved by more than 15 % from docs/benchmarks; exit code 1 if any did
        bench.py SAGEFE --page         write the page again from the kept tables; measure nothing
 
-All tables take about 45 minutes.  With --only the others stay as they are: every table is kept in FOLDER/benchmarks/tables.json
+All tables take about 20 minutes.  With --only the others stay as they are: every table is kept in FOLDER/benchmarks/tables.json
 with its texts, options and date, and FOLDER/benchmarks.md is written from there.
 
 Times are those of whole processes, medians of several runs; programs take turns on each scene and mesh, and ratios are between medians of the same

@@ -7,8 +7,8 @@ Usage: dolfinx_peer.py linear N [--rows M] [--degree P] [--power G | --ratios A 
 --once: no warm-up before a single pass, for the time of a whole process that finds its forms compiled.
 N x M quadrilaterals of degree P (default: N x 2 N of degree 1), finer towards the corner of the end as the power G of the place.
 --ratios: the last interval over the first along the radius and along the height, in geometric progression.
---solver cg: conjugate gradients with algebraic multigrid (BoomerAMG of hypre, nodal systems, three rigid-body modes as near-null
-space), until the preconditioned residual has fallen by the factor of --tolerance.
+--solver cg: conjugate gradients with algebraic multigrid (GAMG of PETSc, with the three rigid-body modes as near-null space),
+until the preconditioned residual has fallen by the factor of --tolerance.
 Prints one JSON line: the ratio, and of every repeat the wall and processor seconds from the first node of the mesh to the answer.
 
 What is counted: mesh, spaces, constraints, pattern, assembly, analysis, factorisation, solution, reaction.  What is not: the start of Python,
@@ -147,16 +147,10 @@ def iterative(matrix, space, args):
     solver.setType("cg")
     solver.setOperators(matrix)
     solver.setTolerances(rtol=args.tolerance, max_it=2000)
-    solver.getPC().setType(args.multigrid)
+    solver.getPC().setType("gamg")
     options = PETSc.Options()
-    if args.multigrid == "hypre":
-        solver.getPC().setHYPREType("boomeramg")
-        options["pc_hypre_boomeramg_nodal_coarsen"] = 6
-        options["pc_hypre_boomeramg_vec_interp_variant"] = 3
-        options["pc_hypre_boomeramg_strong_threshold"] = 0.5
-    else:
-        options["mg_levels_ksp_type"] = "chebyshev"
-        options["mg_levels_pc_type"] = "jacobi"
+    options["mg_levels_ksp_type"] = "chebyshev"
+    options["mg_levels_pc_type"] = "jacobi"
     solver.setFromOptions()
     return solver
 
@@ -299,7 +293,6 @@ def main():
     parser.add_argument("--slenderness", type=float, default=2)
     parser.add_argument("--steps", type=int, default=60)
     parser.add_argument("--solver", default="mumps", choices=["mumps", "petsc", "cg"])
-    parser.add_argument("--multigrid", default="gamg", choices=["gamg", "hypre"])
     parser.add_argument("--tolerance", type=float, default=1e-8, help="of --solver cg")
     parser.add_argument("--ratios", type=float, nargs=2)
     parser.add_argument("--repeats", type=int, default=3)

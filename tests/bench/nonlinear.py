@@ -150,7 +150,7 @@ SLOPE = [
     ("quad9", ["--element", "quad9"]),
 ]
 SPIRAL = 1.36482236  # legacy_inputs/slopes/README.md
-FAR = 0.05  # what the best of the meshes must reach
+FAR, FAR_ON_COARSE_MESHES = 0.015, 0.05  # what the best of the meshes must reach; the second with --quick
 SAFETY_TITLE = "Error against run time: factor of safety of a slope"
 SAFETY_NOTE = (
     "Value: middle of the bracket of `sagefe safety --tolerance .002` for the slope of [`one_to_one`](../legacy_inputs/slopes/README.md): 1:1, 8 m high, c = 10 kPa, phi = psi = 30 degrees. Error: relative to the factor 1.36482 of the best log-spiral, which is an upper bound on the exact one. The bracket is .15 % wide, so smaller errors mean nothing. "
@@ -185,8 +185,9 @@ def slope_deck(columns, rows):
 
 
 def must_come_near(bench, key, rows):
-    if not min((row.error for row in rows), default=1.0) <= FAR:
-        bench.wrong.append(f"{key}: no mesh is within {FAR:.0%}")
+    far = FAR_ON_COARSE_MESHES if bench.args.quick else FAR
+    if not min((row.error for row in rows), default=1.0) <= far:
+        bench.wrong.append(f"{key}: no mesh is within {far:.1%}")
 
 
 def slope_case(bench, element, options, columns):

@@ -2,13 +2,12 @@
 import csv
 import json
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 
 import growth
-import scenes
+import nonlinear
 import specimen
 import walls
 from measure import Job, Table
@@ -18,8 +17,7 @@ from specimen import ROOT, card
 # ------------------------------------------------------------------------------------------------- laws and elements
 
 STEPS = 8
-PHI = str(specimen.FRICTION)
-# Name of a law, its code and parameters for the triaxial specimen, and more options of the run.
+# Name of a law, its code and its parameters for the triaxial specimen.
 LAWS = {
     "linear elastic": ("1", ("3000.", ".3")),
     "Drucker-Prager": ("3", ("3000.", ".3", "1.", "30.", "0.", "1.", "1.", "-1.")),
@@ -30,7 +28,7 @@ ELEMENTS = {"quad4 b-bar": ["--formulation", "2"], "quad8 reduced": ["--element"
 
 
 def specimen_of(law, n):
-    """Free ends: all points have the same stress, and nearly all increments are beyond yield."""
+    """Between rough ends; nearly all increments are beyond yield."""
     code, parameters = LAWS[law]
     top = (n + 1) * 2 * n + 1
     material = [card(1, int(code), len(parameters)) + "          soil", card(*parameters[:8])]
@@ -60,7 +58,7 @@ def umat(bench):
 
 
 def profiled(bench, job, runs, threads):
-    """(seconds in assembly: the least of some runs, passes over the elements, integration points, iterations)"""
+    """(seconds in assembly: the least of some runs, passes over the elements, integration points)"""
     least, text = None, ""
     for _ in range(runs):
         at = job.command.index("--threads")
@@ -174,7 +172,7 @@ WORK_NOTE = (
     "- *factor of safety*: `sagefe safety` of decks of [`legacy_inputs/slopes`](../legacy_inputs/slopes/README.md); the bracket contains or exceeds the log-spiral by at most 2 %, otherwise the benchmark fails."
 )
 WORK_HEAD = ["work", "wall s", "processor s", "MB", "result", "ratio"]
-SLOPES = {"one_to_one": 1.36482236, "griffiths_lane": 1.36821452}  # log-spirals
+SLOPES = {"one_to_one": nonlinear.SPIRAL, "griffiths_lane": 1.36821452}  # log-spirals
 
 
 def work_row(name, record, result, ratio="-"):
@@ -230,7 +228,7 @@ def viewer_rows(bench):
 def safety_rows(bench):
     for name, spiral in list(SLOPES.items())[:1] if bench.args.quick else SLOPES.items():
         deck = str(ROOT / "legacy_inputs/slopes" / name / "deck.dat")
-        job = Job((name,), [bench.sagefe, "safety", deck, "--json", "-q", "-o", "out_safety"], lambda text: json.loads(text[text.index("{") :])["result"])
+        job = Job((name,), [bench.sagefe, "safety", deck, "--json", "-q", "-o", "out_safety"], nonlinear.result_of)
         record = bench.turns([job], strict=True)[(name,)]
         low, high = record.value["lower"], record.value["upper"]
         if not (0.99 * spiral <= low <= high <= 1.02 * spiral):
